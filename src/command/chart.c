@@ -11,9 +11,9 @@
 
 enum { MAX_RAYS = 1 << 22 };
 
-/* What the command line says. */
+/* The command line's request. */
 struct request {
-  struct scene_request scene; /* first: scene_request_take is told of it */
+  struct scene_request scene; /* first: passed to scene_request_take */
   const struct command *command;
   struct chart_request chart;
   struct output_folder folder;

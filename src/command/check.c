@@ -16,13 +16,13 @@
 enum { OPTION_POVRAY_OPTION = 1 };
 enum { MAX_PIXELS = 1 << 26, MAX_GRID = 100000 };
 
-/* What the command line says. */
+/* The command line's request. */
 struct request {
   const struct command *command;
   struct scene_request scene;
   struct check_request check;
   struct output_folder folder;
-  const char **options; /* owned, not the texts */
+  const char **options; /* owned; the texts are not */
 };
 
 static const struct command_option OPTIONS[] = {
@@ -58,7 +58,8 @@ static enum status take_povray_option(const struct command *command, struct requ
   return STATUS_OK;
 }
 
-/* The numbers of --declare, for a text that POV-Ray reads as it is. Writes the options' texts, to be freed. */
+/* Adds POV-Ray options for the numbers of --declare, where POV-Ray reads the scene's own text. The caller frees
+ * *out_texts, the options' texts. */
 static enum status declare_numbers(const struct command *command, struct request *request, char **out_texts)
 {
   const struct scene_request *scene = &request->scene;
@@ -88,7 +89,7 @@ static enum status take_option(const struct command *command, void *context, int
 
 /* ---- the work ---- */
 
-/* What can be known to be wrong before the work. */
+/* The errors that can be known before the work. */
 static enum status prepare(const struct command *command, const struct check_request *request)
 {
   struct stat info;

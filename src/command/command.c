@@ -143,7 +143,8 @@ struct listener command_listener(struct command_ear *ear)
   return (struct listener){.hear = hear, .context = ear, .stop = &interrupt_signal};
 }
 
-/* Adds an argument as a shell reads it: in quotes where it has more than these characters. Returns where the text ends then. */
+/* Adds an argument as a shell reads it: in quotes if it has other characters than these. Returns the new end of the
+ * text. */
 static char *add_argument(char *end, const char *argument)
 {
   static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
@@ -167,12 +168,12 @@ char *command_line_text(int argc, const char **argv)
 
 /* ---- command lines ----
  *
- * libc's getopt_long reads them: nothing is to be installed for it, and it asks for no memory, where popt dropped
- * options in silence when there was none. We are strict where it guesses: names are written out, so that a new option
- * makes no old line ambiguous, and no option is another one's argument.
+ * They are read by libc's getopt_long, which needs no installation and no memory; popt silently dropped options when
+ * memory was short. We are strict where getopt_long guesses: names are written in full, so that a new option makes no
+ * old line ambiguous, and an option is never another one's argument.
  */
 
-/* Of a long option it answers FIRST_LONG and the row of the table, of a short one the letter. */
+/* getopt_long returns FIRST_LONG + the table's row for a long option, the letter for a short one. */
 enum { MOST_OPTIONS = 32, FIRST_LONG = UCHAR_MAX + 1, OPERAND = 1 };
 
 struct getopt_tables {
@@ -184,8 +185,8 @@ static void make_tables(const struct command *command, struct getopt_tables *out
 {
   char *letter = out->letters;
   int row = 0;
-  *letter++ = '-'; /* operands are told where they stand, POSIXLY_CORRECT or not */
-  *letter++ = ':'; /* errors are ours to tell */
+  *letter++ = '-'; /* operands are returned in place, POSIXLY_CORRECT or not */
+  *letter++ = ':'; /* we print the errors */
   for (const struct command_option *option = command->options; option->name != NULL; option++, row++) {
     const bool argument = option->argument != NULL;
     assert(row < MOST_OPTIONS);
@@ -196,7 +197,7 @@ static void make_tables(const struct command *command, struct getopt_tables *out
   out->names[row] = (struct option){0};
 }
 
-/* `begun`: the name of the only option that begins like the word, or NULL. */
+/* `begun`: the name of the only option that begins with the word, or NULL. */
 static void unknown_option(const struct command *command, const char *word, const char *begun)
 {
   const size_t length = strcspn(word, "=");
@@ -210,8 +211,8 @@ static void unknown_option(const struct command *command, const char *word, cons
                   begun == NULL ? guess.best : begun);
 }
 
-/* The option that getopt_long found in `word`, its argument a word of its own where it stands `apart`. NULL, told,
- * where it is none or its argument is not as it should be. */
+/* The option that getopt_long found in `word`; if `apart`, its argument is a separate word. Returns NULL, after
+ * printing the error, if there is no such option or its argument is wrong. */
 static const struct command_option *find_option(const struct command *command, int found, const char *word, bool apart)
 {
   const int code = found == '?' || found == ':' ? optopt : found;
@@ -228,7 +229,7 @@ static const struct command_option *find_option(const struct command *command, i
   return NULL;
 }
 
-/* Puts what an option says where it goes. */
+/* Stores the option's argument, or passes it to the handler. */
 static enum status store_option(const struct command *command, const struct command_option *option,
                                 const char *argument, command_option_handler *handle, void *context)
 {
@@ -258,12 +259,12 @@ enum status command_line_read(const struct command *command, int argc, const cha
   struct getopt_tables tables;
   make_tables(command, &tables);
   *out = (struct command_line){.positional = argv};
-  optind = 0; /* getopt_long begins anew */
+  optind = 0; /* getopt_long starts anew */
   for (int at = 1, found;; at = optind) {
     found = getopt_long(argc, (char *const *)argv, tables.letters, tables.names, NULL);
     if (found == -1) break;
     if (found == OPERAND) {
-      argv[out->positional_count++] = optarg; /* behind what has been read already */
+      argv[out->positional_count++] = optarg; /* after those already read */
       continue;
     }
     const bool apart = optind == at + 2;
@@ -278,7 +279,7 @@ enum status command_line_read(const struct command *command, int argc, const cha
     const enum status status = store_option(command, option, equals ? optarg + 1 : optarg, handle, context);
     if (status != STATUS_OK) return status;
   }
-  while (optind < argc) /* behind "--" */
+  while (optind < argc) /* after "--" */
     argv[out->positional_count++] = argv[optind++];
   if (out->positional_count < count)
     return command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);

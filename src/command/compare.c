@@ -9,7 +9,7 @@
 #include "command/output.h"
 #include "image/image_file.h"
 
-/* Differences up to this are no difference unless the options say otherwise; idiff's default as well. */
+/* Smaller differences do not count unless options say otherwise; idiff's default is the same. */
 static const double DEFAULT_LIMIT = 1e-6;
 
 struct request {
@@ -73,7 +73,7 @@ static enum status add_listed(const struct command *command, const struct reques
 {
   enum status status = STATUS_OK;
   for (const char *from = request->channels; status == STATUS_OK; from++) {
-    char name[IMAGE_NAME_SIZE + 1]; /* one byte more than any has, so that a longer one is not taken for it */
+    char name[IMAGE_NAME_SIZE + 1]; /* one more byte than any name, so that a longer one is not cut to match it */
     const size_t length = strcspn(from, ",");
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), from);
     status = add_channel(command, request, subject, name);
@@ -83,7 +83,7 @@ static enum status add_listed(const struct command *command, const struct reques
   return status;
 }
 
-/* Pairs the channels: those that are listed, else all, which then both pictures must have. */
+/* Pairs the channels: those listed, or else all, which both pictures must then have. */
 static enum status pair_channels(const struct command *command, const struct request *request, struct subject *subject)
 {
   for (int k = 0; k < 2; k++) {
@@ -131,7 +131,7 @@ static enum status write_difference(const struct command *command, const struct 
   return output_picture(command, difference, &encoding, request->output);
 }
 
-/* The table on stdout. */
+/* Prints the table to stdout. */
 static void print_result(const struct compare_pair *pair, const struct compare_result *result)
 {
   static const int CODES[] = {1, 4, 16};
@@ -157,7 +157,7 @@ static void print_result(const struct compare_pair *pair, const struct compare_r
   }
 }
 
-/* Judges by the limits, and says so. */
+/* Checks the limits, and prints the result. */
 static enum status judge(const struct command *command, const struct request *request, const struct compare_pair *pair,
                          const struct compare_result *result)
 {

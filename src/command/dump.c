@@ -4,7 +4,7 @@
 #include "scene/dump.h"
 
 struct request {
-  struct scene_request scene; /* first: scene_request_take is told of it */
+  struct scene_request scene; /* first: passed to scene_request_take */
 };
 
 static const struct command_option OPTIONS[] = {
@@ -25,7 +25,7 @@ static enum status run(const struct command *command, int argc, const char **arg
     request.scene.path = line.positional[0];
     status = scene_file_load(command, &request.scene, &scene);
     if (status == STATUS_OK) {
-      (void)!scene_dump(scene, stdout); /* what was not written is told with its reason */
+      (void)!scene_dump(scene, stdout); /* if something was not written, the next line tells the reason */
       status = command_finish_output(command);
     }
   }

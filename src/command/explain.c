@@ -29,7 +29,7 @@ static void put_row(const char *name, const double c[], int count)
   putchar('\n');
 }
 
-/* An equation of eq 3, the rows of its net behind one another. */
+/* Prints an equation of eq 3: the rows of its net, one by one. */
 static void put_net(const char *name, const struct explained_candidate *candidate, const double net[16])
 {
   double c[16];
@@ -61,7 +61,7 @@ static void put_fate(const struct teller *teller, const struct explained_candida
   }
 }
 
-/* r in the format of pscn roots, and its roots. */
+/* Prints r in the format of pscn roots, and its roots. */
 static void put_roots(const struct teller *teller, const struct explained_candidate *candidate)
 {
   const struct explained_roots *found = &candidate->found;

@@ -23,15 +23,15 @@ void interrupt_install(void)
   sigemptyset(&action.sa_mask);
   (void)sigaction(SIGINT, &action, NULL);
   (void)sigaction(SIGTERM, &action, NULL);
-  (void)sigaction(SIGXCPU, &action, NULL); /* the soft limit: some time is left to put away what is done */
-  (void)signal(SIGXFSZ, SIG_IGN);          /* a file that may grow no further is an error of write, told as such */
-  (void)signal(SIGCHLD, SIG_DFL); /* where whoever started us ignores it, we would not learn how a child ended */
+  (void)sigaction(SIGXCPU, &action, NULL); /* the soft limit: some time remains to save what is done */
+  (void)signal(SIGXFSZ, SIG_IGN);          /* writing past the limit on file sizes is then an error of write */
+  (void)signal(SIGCHLD, SIG_DFL);          /* if our parent ignores it, we could not learn how a child ended */
   struct sigaction hangup;
-  if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) /* nohup(1) stays in force */
+  if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) /* nohup(1) stays effective */
     (void)sigaction(SIGHUP, &action, NULL);
 }
 
-/* What SIGPIPE does, unless we were started so that it does nothing. */
+/* Sets the action of SIGPIPE, unless it was ignored when we were started. */
 static void on_broken_pipe(void (*action)(int))
 {
   struct sigaction now;

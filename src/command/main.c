@@ -12,15 +12,15 @@
 #include "library/pscn.h"
 #include "render/threads.h"
 
-/* A standard stream that was closed gets a descriptor that refuses its use, so that no file of ours is opened in its
- * place and takes what is meant for it. */
+/* Gives each closed standard stream a descriptor that refuses use; otherwise a file of ours could be opened in its
+ * place and receive the stream's output. */
 static void hold_streams(void)
 {
   for (int stream = 0; stream <= 2; stream++)
     if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
 }
 
-/* "pscn scene.pscn" means that it is to be rendered. */
+/* "pscn scene.pscn" renders it. */
 static bool is_scene(const char *name)
 {
   const char *suffix = strrchr(name, '.');
@@ -69,7 +69,7 @@ int main(int argc, char **argv)
   }
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) name = command_help.name;
   const struct command *command = command_find(name);
-  int words = 1; /* that stand before the command's own */
+  int words = 1; /* words before the command's own */
   if (command == NULL && is_rendering(argc, argv)) {
     command = &command_render;
     words = 0;
@@ -79,6 +79,6 @@ int main(int argc, char **argv)
     return (int)command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
   struct call call = {command, argc - words, (const char **)argv + words, false};
   const int code = (int)threads_run_deep(run_call, &call);
-  if (!call.ran) return (int)command_out_of_memory(command); /* there was no room for the thread */
+  if (!call.ran) return (int)command_out_of_memory(command); /* there was no memory for the thread */
   return code == STATUS_INTERRUPTED ? interrupt_exit_code() : code;
 }

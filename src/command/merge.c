@@ -1,4 +1,4 @@
-/* pscn merge PIECE...: the picture that the pieces are of. */
+/* pscn merge PIECE...: makes a picture from its pieces. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,20 +32,20 @@ static const struct command_option OPTIONS[] = {
 struct file {
   const char *path;
   struct piece piece; /* without pixels */
-  bool good;          /* a piece of the picture, as far as is known */
-  size_t alike;       /* files that this one is the first of, being of one picture */
+  bool good;          /* a valid piece of the picture, as far as is known */
+  size_t alike;       /* how many files are of the same picture, this being the first of them */
 };
 
-/* What is being put together. */
+/* The state of the merge. */
 struct merge {
   const struct command *command;
   const struct request *request;
   struct file *file;
   size_t count;
-  const struct file *first; /* of the files of the picture that most are of; NULL: no file is a piece */
-  struct piece picture;     /* piece 1 of 1; done: the tiles that a file has */
-  double seconds;           /* that the pieces took */
-  bool strange;             /* something is wrong with a file, which has been told */
+  const struct file *first; /* the first file of the picture that most files belong to; NULL: no file is a piece */
+  struct piece picture;     /* piece 1 of 1; done: the tiles found in a file */
+  double seconds;           /* rendering time of the pieces */
+  bool strange;             /* a file is wrong; the error has been printed */
 };
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
@@ -56,7 +56,7 @@ static enum status take_option(const struct command *command, void *context, int
   return command_usage(command, "'%s' bits are 8, 16 or 32", argument);
 }
 
-/* From here on the file counts for nothing; told why. */
+/* Excludes the file, and prints the reason. */
 static void refuse(struct merge *merge, struct file *file, const char *before, const char *why)
 {
   command_error(merge->command, "'%s': %s%s", file->path, before, why);
@@ -79,7 +79,7 @@ static enum status read_headers(struct merge *merge)
   return STATUS_OK;
 }
 
-/* Whether both are pieces of one picture, cut alike; else the message says what parts them. */
+/* Whether both are pieces of one picture, cut in the same way. If not, the message says how they differ. */
 static bool belong(const struct file *a, const struct file *b, char *message, size_t size)
 {
   if (!piece_belongs(&a->piece.image, &b->piece.image, message, size)) return false;
@@ -88,7 +88,7 @@ static bool belong(const struct file *a, const struct file *b, char *message, si
   return false;
 }
 
-/* The picture that most files are of; of two with equally many, that of the first file. */
+/* Chooses the picture that most files belong to; in a tie, that of the first file. */
 static void choose_picture(struct merge *merge)
 {
   char message[IMAGE_MESSAGE_SIZE];
@@ -102,7 +102,7 @@ static void choose_picture(struct merge *merge)
     if (merge->file[k].alike > (merge->first == NULL ? 0 : merge->first->alike)) merge->first = &merge->file[k];
 }
 
-/* The picture, still black, and what is common to all pieces. */
+/* Creates the picture, still black. */
 static enum status create_picture(struct merge *merge)
 {
   const struct file *first = merge->first;
@@ -113,13 +113,13 @@ static enum status create_picture(struct merge *merge)
   return status == STATUS_OK ? status : command_out_of_memory(merge->command);
 }
 
-/* Where a tile of a piece stands in the list of the whole picture (tile_list.h). */
+/* The place of a piece's tile in the list of the whole picture (tile_list.h). */
 static atomic_bool *place_of(const struct merge *merge, const struct piece *piece, size_t tile)
 {
   return &merge->picture.tiles.done[tile * piece->count + piece->number - 1];
 }
 
-/* Whether one of its tiles is done already. */
+/* Whether one of the piece's tiles is done already. */
 static bool has_twice(const struct merge *merge, const struct piece *piece)
 {
   bool twice = false;
@@ -145,7 +145,7 @@ static double seconds_of(const struct image *image)
   return seconds;
 }
 
-/* Whether a piece is still what its header said: somebody may have written it anew. */
+/* Whether a piece still is what its header said: it may have been overwritten meanwhile. */
 static bool is_same(const struct piece *header, const struct piece *whole)
 {
   char message[IMAGE_MESSAGE_SIZE];
@@ -156,7 +156,7 @@ static bool is_same(const struct piece *header, const struct piece *whole)
   return same;
 }
 
-/* What a file has counts as soon as its pixels are there, so that a damaged one stands in no other one's way. */
+/* A file's tiles count only after its pixels have been read, so that a damaged file does not exclude another one. */
 static enum status read_files(struct merge *merge)
 {
   char message[IMAGE_MESSAGE_SIZE];
@@ -204,7 +204,7 @@ static enum status print_missing(const struct merge *merge, bool *out_any)
 
 enum { MOST_TEXTS = 40 };
 
-/* Whether a text tells of its piece alone. */
+/* Whether the metadata of this name describe a piece, not the picture. */
 static bool is_own(const char *name)
 {
   static const char *const own[] = {"pscn:tile", "pscn:done", "pscn:sum", "pscn:render_seconds"};
@@ -213,7 +213,8 @@ static bool is_own(const char *name)
   return is;
 }
 
-/* The texts of the picture: those of the pieces, but for what is a piece's own, and today's. `lines` is cut up. */
+/* The metadata of the picture: those of the pieces that describe the picture, and the present date. `lines` is
+ * overwritten. */
 static size_t list_texts(char *lines, const char *date, const char *seconds, struct image_attribute out[MOST_TEXTS])
 {
   size_t count = 0;

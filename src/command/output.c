@@ -1,4 +1,4 @@
-/* Where results go. */
+/* Where results go. See output.h. */
 #include "command/output.h"
 
 #include <assert.h>
@@ -13,19 +13,19 @@
 #include "base/input.h"
 #include "command/interrupt.h"
 
-/* What is written to standard output. Where files are to follow, a signal, and a reader that is gone, only end the writing:
- * what they were made of has still to be put away. */
+/* Writes to standard output. If files are to follow, a signal or a reader that has gone ends only the writing, because
+ * the caller must still save what the files were made of. */
 static enum status write_standard(const struct command *command, const struct atomic_file *output, bool files_follow)
 {
-  if (!files_follow) interrupt_resume(); /* nothing would have to be put away */
+  if (!files_follow) interrupt_resume(); /* nothing would have to be saved */
   if (atomic_load(&interrupt_signal) != 0) return STATUS_INTERRUPTED;
   (void)fwrite(output->bytes, 1, output->size, stdout);
   if (fflush(stdout) == 0 || atomic_load(&interrupt_signal) == 0) return command_finish_output(command);
-  __fpurge(stdout); /* else the end of the program would wait for the reader again */
+  __fpurge(stdout); /* otherwise the program's end would wait for the reader again */
   return STATUS_INTERRUPTED;
 }
 
-/* What follows the last slash. */
+/* The part after the last slash. */
 static const char *base_of(const char *path)
 {
   const char *slash = strrchr(path, '/');
@@ -40,7 +40,7 @@ const char *output_reason(const char *path, int reason)
   return reason == ENOENT && readlink(path, &byte, 1) >= 0 ? "it is a link to what is not there" : strerror(reason);
 }
 
-/* Tells why a file was not probed or written. */
+/* Prints why a file was not probed or written. */
 static enum status told(const struct command *command, const char *path, enum status status, int reason)
 {
   if (status == STATUS_FILE || status == STATUS_LIMIT)
@@ -125,7 +125,7 @@ char *output_name(const char *scene, const char *suffix)
   return name;
 }
 
-/* The folder, of whose name *owned is what is to be freed. */
+/* Makes the folder. *owned is its name if the caller must free it, else NULL. */
 static enum status make_folder(const struct command *command, const struct output_folder *folder, char **owned,
                                const char **out_path, bool *out_made)
 {
@@ -153,7 +153,7 @@ enum status output_folder_fill(const struct command *command, const struct outpu
     status = work(context, path, &text);
     if (atomic_load(&interrupt_signal) != 0) status = STATUS_INTERRUPTED;
     const bool done = status == STATUS_OK || status == STATUS_DIFFERENT;
-    if (!done && made) (void)rmdir(path); /* stays where something is in it after all */
+    if (!done && made) (void)rmdir(path); /* fails, as it should, if the folder is not empty */
     interrupt_resume();
     if (done && !quiet) {
       text_buffer_add_text(&text, "\n");

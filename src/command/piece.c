@@ -1,4 +1,4 @@
-/* Parts of a picture. */
+/* Parts of a picture. See piece.h. */
 #include "command/piece.h"
 
 #include <assert.h>
@@ -10,7 +10,7 @@
 #include "base/text_buffer.h"
 #include "command/values.h"
 
-/* What two parts of a picture have in common, and what a message calls it. */
+/* The metadata that two parts of a picture share, and their names in messages. */
 static const struct {
   const char *name, *what;
 } COMMON[] = {
@@ -22,7 +22,7 @@ static const struct {
 
 enum {
   MOST_PIECES = 1000000,
-  SUM_SIZE = 17 /* of the text of a sum: 16 digits and a NUL */
+  SUM_SIZE = 17 /* a checksum as text: 16 digits and a NUL */
 };
 
 bool piece_number(const char *text, size_t length, size_t *out_number, size_t *out_count)
@@ -37,7 +37,7 @@ bool piece_number(const char *text, size_t length, size_t *out_number, size_t *o
   return true;
 }
 
-/* The lines of struct image's metadata, as they will be read again; NULL where memory is short. */
+/* The lines of struct image's metadata, as they will be read back; NULL if memory is short. */
 static char *metadata_lines(const struct image_attribute *attributes, size_t count)
 {
   size_t size = 1, used = 0;
@@ -102,8 +102,7 @@ void piece_destroy(struct piece *piece)
   *piece = (struct piece){0};
 }
 
-/* "0-17,19", the opposite of done_text, so each number is larger than the one before; false where it is no such
- * list. */
+/* Reads "0-17,19", the inverse of done_text, so that the numbers ascend. Returns false if it is no such list. */
 static bool read_done(const char *text, size_t length, const struct tile_list *tiles)
 {
   const char *end = text + length;
@@ -120,7 +119,7 @@ static bool read_done(const char *text, size_t length, const struct tile_list *t
   return true;
 }
 
-/* The status, of which the message says why. */
+/* Returns the status, and writes its reason into the message. */
 static enum status told(enum status status, const char *input, char *message)
 {
   if (status != STATUS_OK)
@@ -128,7 +127,7 @@ static enum status told(enum status status, const char *input, char *message)
   return status;
 }
 
-/* Whether it stands where it says that it does: no sum is made of the windows that the file has. */
+/* Whether the picture's place is as its metadata say: the checksum does not cover the windows in the file. */
 static bool stands_in_place(const struct image *image)
 {
   char size[48], crop[96];
@@ -141,7 +140,7 @@ static bool stands_in_place(const struct image *image)
          memcmp(said_crop, crop, crop_length) == 0;
 }
 
-/* What the picture says of its place and its tiles; STATUS_INPUT where that is nothing, or nothing that can be. */
+/* Reads a picture's place and tiles from its metadata. Returns STATUS_INPUT if they are missing or impossible. */
 static enum status read_tiles(struct piece *piece)
 {
   const struct image *image = &piece->image;
@@ -152,11 +151,11 @@ static enum status read_tiles(struct piece *piece)
     return STATUS_INPUT;
   const enum status status = tile_list_create(&crop, piece->number, piece->count, &piece->tiles);
   if (status != STATUS_OK) return status;
-  const char *done = image_metadata(image, "pscn:done", &length); /* an empty text is not in the file: none is done */
+  const char *done = image_metadata(image, "pscn:done", &length); /* empty texts are not stored: none is done */
   return done == NULL || read_done(done, length, &piece->tiles) ? STATUS_OK : STATUS_INPUT;
 }
 
-/* What the picture says of its channels, likewise. */
+/* The same for its channels. */
 static enum status read_channels(struct piece *piece)
 {
   size_t length, bad_length;
@@ -169,12 +168,12 @@ static enum status read_channels(struct piece *piece)
   return known ? STATUS_OK : STATUS_INPUT;
 }
 
-/* FNV-1a (Fowler, Noll, Vo; RFC 9923), a word at a time too: no two words give one hash. */
+/* FNV-1a (Fowler, Noll, Vo; RFC 9923), also applied to words: no two words give one hash. */
 static const uint64_t HASH_PRIME = UINT64_C(0x100000001b3);
 
 static uint64_t hash_add(uint64_t hash, uint32_t word) { return (hash ^ word) * HASH_PRIME; }
 
-/* So many words 0. */
+/* Adds `count` words 0. */
 static uint64_t hash_add_zeros(uint64_t hash, size_t count)
 {
   for (uint64_t factor = HASH_PRIME; count != 0; count /= 2, factor *= factor)
@@ -182,7 +181,7 @@ static uint64_t hash_add_zeros(uint64_t hash, size_t count)
   return hash;
 }
 
-/* The upper bits are the better ones. */
+/* The upper bits are mixed better. */
 static uint64_t hash_fold(uint64_t hash) { return hash ^ hash >> 32; }
 
 static uint64_t hash_text(const char *text, size_t length)
@@ -198,7 +197,7 @@ static int by_row(const void *a, const void *b)
   return p->y != q->y ? (p->y > q->y) - (p->y < q->y) : (p->x > q->x) - (p->x < q->x);
 }
 
-/* The tiles that are done, row by row, to be freed; NULL where memory is short. */
+/* The tiles that are done, by rows. The caller frees them; NULL if memory is short. */
 static struct rectangle *tiles_by_row(const struct tile_list *tiles, size_t *out_count)
 {
   struct rectangle *sorted = malloc((tiles->count + 1) * sizeof *sorted);
@@ -210,7 +209,7 @@ static struct rectangle *tiles_by_row(const struct tile_list *tiles, size_t *out
   return sorted;
 }
 
-/* Of one channel the pixels from `first` on. */
+/* Adds `count` pixels of one channel, from `first` on. */
 static uint64_t hash_add_pixels(uint64_t hash, const struct image *image, size_t channel, size_t first, size_t count)
 {
   const float *value = image->value + first * image->channel_count + channel;
@@ -222,7 +221,7 @@ static uint64_t hash_add_pixels(uint64_t hash, const struct image *image, size_t
   return hash;
 }
 
-/* One channel of the whole picture, row by row, as if it were 0 beside the tiles, where it may not have been read. */
+/* Hashes one channel of the whole picture, by rows, taken as 0 outside the tiles, where it may not have been read. */
 static uint64_t hash_channel(const struct image *image, size_t channel, const struct rectangle *tile, size_t count)
 {
   uint64_t hash = hash_text(image->channel[channel].name, strlen(image->channel[channel].name));
@@ -240,8 +239,8 @@ static uint64_t hash_channel(const struct image *image, size_t channel, const st
   return hash_fold(hash_add_zeros(hash, image->width * image->height - next));
 }
 
-/* What a part says of its own pixels, tiles and number, that a byte which has changed since is seen: as a text. The order of
- * the channels, which a file does not keep, is of no account. */
+/* A checksum, as text, of a part's pixels, tiles and number, which shows that a byte has changed. It is independent of
+ * the order of the channels, which a file does not keep. */
 static enum status make_sum(const struct image *image, const struct tile_list *tiles, const char *tile,
                             size_t tile_length, const char *done, size_t done_length, char out[SUM_SIZE])
 {
@@ -255,13 +254,13 @@ static enum status make_sum(const struct image *image, const struct tile_list *t
   return STATUS_OK;
 }
 
-/* Whether its pixels are what was written. */
+/* Whether the pixels are those that were written. */
 static enum status check_sum(const struct piece *piece, char *message)
 {
   const struct image *image = &piece->image;
   size_t tile_length = 0, done_length = 0, length = 0;
   const char *tile = image_metadata(image, "pscn:tile", &tile_length);
-  const char *done = image_metadata(image, "pscn:done", &done_length); /* an empty text is not in the file */
+  const char *done = image_metadata(image, "pscn:done", &done_length); /* empty texts are not stored */
   const char *said = image_metadata(image, "pscn:sum", &length);
   char sum[SUM_SIZE];
   enum status status = make_sum(image, &piece->tiles, tile, tile_length, done == NULL ? "" : done, done_length, sum);
@@ -269,7 +268,7 @@ static enum status check_sum(const struct piece *piece, char *message)
   return told(status, "it is damaged: it is not what was written", message);
 }
 
-/* What is read of a part: all that it says of itself, and with `pixels` those of its tiles. */
+/* The reading of a part: all of its metadata, and with `pixels` those of its tiles. */
 struct reading {
   struct piece *piece;
   bool pixels;
@@ -304,7 +303,7 @@ bool piece_belongs(const struct image *part, const struct image *picture, char *
   for (size_t k = 0; k < sizeof COMMON / sizeof *COMMON; k++) {
     size_t here = 0, there = 0;
     const char *a = image_metadata(part, COMMON[k].name, &here), *b = image_metadata(picture, COMMON[k].name, &there);
-    if (a == NULL) a = "", here = 0; /* an empty text is not in the file */
+    if (a == NULL) a = "", here = 0; /* empty texts are not stored */
     if (b == NULL) b = "", there = 0;
     if (here == there && memcmp(a, b, here) == 0) continue;
     snprintf(out, size, "its %s: '%.*s', not '%.*s'", COMMON[k].what, (int)here, a, (int)there, b);
@@ -313,7 +312,7 @@ bool piece_belongs(const struct image *part, const struct image *picture, char *
   return true;
 }
 
-/* The values of one tile, of which `channel` says for each of to's channels which of from's it is. */
+/* Copies the values of one tile. channel[c] is the channel of `from` for channel c of `to`. */
 static void copy_tile(const struct image *from, const struct rectangle *tile, const size_t *channel, struct image *to)
 {
   for (size_t y = tile->y - to->y; y < tile->y - to->y + tile->height; y++) {
@@ -341,7 +340,7 @@ static bool is_done(const void *tiles, size_t number)
   return atomic_load(&((const struct tile_list *)tiles)->done[number]);
 }
 
-/* Which tiles a part has, by their place in its list, as "0-17,19"; to be freed, NULL where memory is short. */
+/* The tiles that a part has, as indices in its list: "0-17,19". The caller frees it; NULL if memory is short. */
 static char *done_text(const struct tile_list *tiles)
 {
   struct text_buffer text = {0};
@@ -349,7 +348,7 @@ static char *done_text(const struct tile_list *tiles)
   return text_buffer_take(&text);
 }
 
-/* A copy of the tiles that are done, and of no others: nobody reads what is being written. */
+/* Copies the tiles that are done, and no others, because those are still being written. */
 static enum status copy_done(const struct piece *piece, struct piece *out)
 {
   const enum status status = piece_create_like(piece, piece->number, piece->count, out);

@@ -1,4 +1,4 @@
-/* Parts of a picture, which say themselves what picture they belong to.
+/* Parts of a picture, each of which says which picture it belongs to.
  *
  * A part is an EXR of floats. It has the window of the picture it belongs to, the pixels of its own tiles, and 0
  * elsewhere. Its metadata say what was rendered and how, which tiles it has, and a checksum. It is packed in tiles of

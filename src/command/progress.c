@@ -8,7 +8,7 @@
 
 #include "base/clock.h"
 
-/* Seconds between two tellings. */
+/* Seconds between two reports. */
 static const double TERMINAL_PERIOD = 0.2;
 static const double LINE_PERIOD = 5;
 
@@ -33,13 +33,13 @@ static void write_rate(double rate, char *out, size_t size)
   else snprintf(out, size, "%.1f k rays/s", rate / 1e3);
 }
 
-/* A line that is written over by the next one, so it must not be longer than the terminal is wide: there the bar gives
- * way first. */
+/* Prints a line that the next one overwrites. It must therefore fit the terminal's width; if space is short, the bar
+ * shrinks first. */
 static void tell_terminal(const char *line, size_t length, double done)
 {
   struct winsize window;
   const size_t columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
-  const size_t around = strlen("[]  "); /* the bar's brackets, a blank, and the last column, which may break the line */
+  const size_t around = strlen("[]  "); /* the bar's brackets, a blank, and the last column, which may wrap the line */
   char bar[BAR_WIDTH + 4] = "";
   if (columns >= length + around + LEAST_BAR) {
     const size_t room = columns - length - around, width = room < BAR_WIDTH ? room : BAR_WIDTH;

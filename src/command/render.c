@@ -15,19 +15,18 @@
 enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS, OPTION_TILE };
 
 enum {
-  MAX_SAMPLES = 256, /* a side: 65536 rays a pixel */
+  MAX_SAMPLES = 256, /* per side: 65536 rays per pixel */
   MAX_THREADS = 1024
 };
 
-/* What the command line asks for. */
+/* The command line's request. */
 struct request {
   struct scene_request scene;
   struct rendering_request picture; /* bits 0, crop.width 0: not given */
-  char *output, *part, *how;        /* owned: texts of the picture's that are not on the command line; or NULL */
+  char *output, *part, *how;        /* owned: texts of `picture` that are not on the command line; or NULL */
 };
 
-/* Seconds between two looks at what is done so far that are kept: with the time that keeping takes, a minute is lost at
- * most. */
+/* Seconds after which what is done is kept again. With the time that keeping takes, at most a minute is lost. */
 static const double DEFAULT_CHECKPOINT = 30;
 
 static const struct command_option OPTIONS[] = {
@@ -90,7 +89,7 @@ static enum status take_option(const struct command *command, void *context, int
   return STATUS_OK;
 }
 
-/* A piece is of one format. */
+/* A piece has only one format. */
 static enum status check_piece(const struct command *command, struct rendering_request *picture)
 {
   if (picture->pieces == 0) return STATUS_OK;
@@ -116,7 +115,7 @@ static enum status check_format(const struct command *command, struct rendering_
   return STATUS_OK;
 }
 
-/* The part of the picture that is kept. */
+/* Completes and checks the part of the picture that is rendered. */
 static enum status check_crop(const struct command *command, struct render_options *options)
 {
   struct rectangle *crop = &options->crop;
@@ -130,7 +129,7 @@ static enum status check_crop(const struct command *command, struct render_optio
   return STATUS_OK;
 }
 
-/* The names and texts that follow from what is given. */
+/* Adds the names and texts that follow from the request. */
 static enum status complete(const struct command *command, struct request *request)
 {
   struct rendering_request *picture = &request->picture;
@@ -148,8 +147,8 @@ static enum status complete(const struct command *command, struct request *reque
   return enough ? STATUS_OK : command_out_of_memory(command);
 }
 
-/* Where a picture can be written its part cannot always: its name is longer. It can be done without, unless it is asked
- * for. */
+/* A picture may be writable where its part is not, because the part's name is longer. The part is then omitted, unless
+ * --resume asks for it. */
 static enum status check_part(const struct command *command, struct rendering_request *picture)
 {
   int reason;
@@ -157,7 +156,7 @@ static enum status check_part(const struct command *command, struct rendering_re
   if (picture->part == NULL) return STATUS_OK;
   if (picture->resume) return output_probe(command, picture->part);
   const enum status status = atomic_file_probe(picture->part, &reason);
-  /* a pipe that nobody reads would be waited for, and what is written to a device is gone */
+  /* opening a pipe waits for a reader, and what a device gets is lost */
   const bool special = status == STATUS_OK && stat(picture->part, &state) == 0 && !S_ISREG(state.st_mode);
   if (status == STATUS_OK && !special) return STATUS_OK;
   if (status == STATUS_LIMIT) return command_out_of_memory(command);
@@ -168,7 +167,7 @@ static enum status check_part(const struct command *command, struct rendering_re
   return STATUS_OK;
 }
 
-/* Whatever can be known to be wrong before the work starts. */
+/* Checks what can be known to be wrong before the work starts. */
 static enum status check(const struct command *command, struct rendering_request *picture)
 {
   if (picture->part == NULL && picture->resume)

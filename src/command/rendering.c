@@ -1,4 +1,4 @@
-/* A picture on its way into its file. See rendering.h. */
+/* From a scene to the picture's file. See rendering.h. */
 #include "command/rendering.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ enum status rendering_check_outputs(const struct command *command, const struct 
 {
   enum status status = output_spare(command, request->stats, request->output);
   if (status == STATUS_OK) status = output_spare(command, request->stats, request->part);
-  if (status == STATUS_OK) status = output_spare(command, request->output, request->part); /* a link to what is kept */
+  if (status == STATUS_OK) status = output_spare(command, request->output, request->part); /* a link to the part */
   if (status == STATUS_OK) status = scene_file_spare(command, request->scene, scene, request->part);
   if (status == STATUS_OK) status = scene_file_spare(command, request->scene, scene, request->output);
   return status == STATUS_OK ? scene_file_spare(command, request->scene, scene, request->stats) : status;
@@ -27,20 +27,20 @@ enum status rendering_check_outputs(const struct command *command, const struct 
 
 /* ---- what is done so far ---- */
 
-/* A rendering that is under way. */
+/* A rendering in progress. */
 struct rendering {
   const struct command *command;
   const struct rendering_request *request;
   struct report *report;
   struct piece piece;
   struct progress progress;
-  double kept;   /* when it was last kept, in seconds since the rendering began */
+  double kept;   /* when the part was last kept, in seconds since the rendering began */
   bool has_part; /* there is a file of what is done */
-  bool has_old;  /* there was one that we do not go on from */
-  size_t left;   /* pixels of this picture in the file that an earlier run has left, where we do not go on from it */
+  bool has_old;  /* an earlier run's file, from which we do not continue */
+  size_t left;   /* pixels of this picture in the earlier run's file, from which we do not continue */
 };
 
-/* Writes what is done into its file. Whether that could be done: it is told where not. */
+/* Writes what is done into its file. Returns whether that worked; prints the error if not. */
 static bool keep(struct rendering *rendering)
 {
   struct report_metadata metadata;
@@ -61,8 +61,8 @@ static bool keep(struct rendering *rendering)
   return status == STATUS_OK;
 }
 
-/* Whether more than is done is in the file that an earlier run has left: who forgot --resume and ends the rendering for that
- * shall still have it. */
+/* Whether an earlier run's file has more than is done now. A user who forgot --resume, and interrupts for that reason,
+ * must not lose it. */
 static bool has_less(const struct rendering *rendering)
 {
   return !rendering->has_part && tile_list_pixels(&rendering->piece.tiles, true) < rendering->left &&
@@ -84,7 +84,7 @@ static void look(void *context, const struct render_progress *progress)
   rendering->kept = progress->seconds + seconds_since(start).wall;
 }
 
-/* What is done when a signal ends the rendering, or when its results cannot be written. */
+/* Keeps what is done when a signal ends the rendering, or when its results cannot be written. */
 static void keep_rest(struct rendering *rendering, bool interrupted)
 {
   const size_t done = tile_list_pixels(&rendering->piece.tiles, true),
@@ -99,7 +99,7 @@ static void keep_rest(struct rendering *rendering, bool interrupted)
   fputs("', and --resume goes on from there\n", stderr);
 }
 
-/* Whether what an earlier run has left is of what is rendered now; else the message says what parts them. */
+/* Whether the part of an earlier run belongs to this picture and piece. If not, the message says how they differ. */
 static bool is_part(const struct piece *piece, const struct piece *part, char *message, size_t size)
 {
   if (part->number != piece->number || part->count != piece->count) {
@@ -109,14 +109,14 @@ static bool is_part(const struct piece *piece, const struct piece *part, char *m
   return piece_belongs(&part->image, &piece->image, message, size);
 }
 
-/* How many pixels of this picture an earlier run has left; 0 where it is of another one, or cannot be gone on from. That is
- * known only when all of it is read: what is damaged shall not be spared for what is done now. */
+/* How many pixels of this picture an earlier run has left; 0 if they are of another picture or unusable. To know that,
+ * all of the file is read: a damaged file must not be spared at the cost of what is done now. */
 static size_t pixels_left(const struct rendering *rendering, const char *path, bool *out_useless)
 {
   struct piece part;
   char message[IMAGE_MESSAGE_SIZE];
   enum status status = piece_read(path, true, &part, message);
-  if (status == STATUS_LIMIT) status = piece_read(path, false, &part, message); /* it is spared where it may be whole */
+  if (status == STATUS_LIMIT) status = piece_read(path, false, &part, message); /* spared, because it may be whole */
   *out_useless = status != STATUS_OK;
   if (*out_useless) return 0;
   const bool ours = is_part(&rendering->piece, &part, message, sizeof message);
@@ -125,7 +125,7 @@ static size_t pixels_left(const struct rendering *rendering, const char *path, b
   return pixels;
 }
 
-/* Takes its tiles; false where it is of something else. */
+/* Takes the tiles of a part. Returns false if it is of another picture, or lacks a channel. */
 static bool take_part(struct rendering *rendering, const struct piece *part, char *message, size_t size)
 {
   struct piece *piece = &rendering->piece;
@@ -136,7 +136,7 @@ static bool take_part(struct rendering *rendering, const struct piece *part, cha
   return true;
 }
 
-/* Goes on with what an earlier run has left, or warns that it is there. */
+/* Continues from what an earlier run has left, or warns that it is there. */
 static enum status resume(struct rendering *rendering)
 {
   const struct command *command = rendering->command;
@@ -168,7 +168,7 @@ static enum status resume(struct rendering *rendering)
   return rendering->has_part ? STATUS_OK : STATUS_INPUT;
 }
 
-/* The picture as it is before anything is rendered now. */
+/* Creates the picture, and fills in what an earlier run has done. */
 static enum status begin(struct rendering *rendering)
 {
   const struct rendering_request *request = rendering->request;
@@ -182,8 +182,8 @@ static enum status begin(struct rendering *rendering)
 
 /* ---- the picture ---- */
 
-/* Now, and since then, as if nothing were loaded beside. The thread is asked before the process, whose clock has what it was asked of
- * others last. */
+/* The time now, and since `start`, without the CPU time of loading in parallel. The thread's clock is read before the
+ * process's, because the latter counts other threads only up to the last reading of their clocks. */
 static struct seconds now(const struct image_loading *loading)
 {
   const double beside = image_loading_seconds(loading);
@@ -195,11 +195,11 @@ static struct seconds now(const struct image_loading *loading)
 static struct seconds since(struct seconds start, const struct image_loading *loading)
 {
   struct seconds taken = seconds_between(start, now(loading));
-  taken.cpu = fmax(taken.cpu, 0); /* both clocks are not read at once */
+  taken.cpu = fmax(taken.cpu, 0); /* the two clocks are not read at the same time */
   return taken;
 }
 
-/* Waits until pictures can be written; tells it where they cannot. */
+/* Waits until pictures can be written. Prints the error if they cannot. */
 static enum status loaded(const struct command *command, struct image_loading *loading)
 {
   const char *message;
@@ -208,7 +208,7 @@ static enum status loaded(const struct command *command, struct image_loading *l
   return status;
 }
 
-/* Renders what is not done, and no further where it could not be written. */
+/* Renders the tiles that are not done. Stops early if the picture could not be written. */
 static enum status make_picture(struct rendering *rendering, struct image_loading *loading)
 {
   struct report *report = rendering->report;
@@ -240,7 +240,7 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
   return status;
 }
 
-/* While the file is made. */
+/* Called while the file is encoded. */
 static bool go_on_writing(void *context, double part)
 {
   struct rendering *rendering = context;
@@ -268,7 +268,7 @@ static enum status encode(struct rendering *rendering, unsigned char **out_bytes
   return status;
 }
 
-/* The picture, and the statistics where they are asked for; what was kept of it on the way goes. */
+/* Writes the picture, and the statistics if requested, and removes the part. */
 static enum status write_results(struct rendering *rendering)
 {
   const struct command *command = rendering->command;

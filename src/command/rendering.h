@@ -25,7 +25,7 @@ struct rendering_request {
   const char *how;      /* the command line's other options on reading the scene */
   size_t piece, pieces; /* render only piece `piece` of `pieces`, from 1; 0, 0: the whole picture */
   bool resume;          /* continue from `part` */
-  double checkpoint;    /* seconds between two times of keeping; 0: never */
+  double checkpoint;    /* seconds after which what is done is kept again; 0: never */
 };
 
 /* Returns STATUS_USAGE, after printing the error, if one of the files would overwrite another one, or a file of the

@@ -1,4 +1,4 @@
-/* What a run was and did. */
+/* A run's report. See report.h. */
 #include "command/report.h"
 
 #include <assert.h>
@@ -36,7 +36,7 @@ void report_print(const struct report *report)
           report->build.wall, report->render.wall, report->write.wall);
 }
 
-/* A path as JSON, which is UTF-8: other bytes of a name become '?'. */
+/* A path as JSON text. If it is not UTF-8, its bytes outside ASCII become '?'. */
 static json_t *path_text(const char *path)
 {
   json_t *text = json_string(path);

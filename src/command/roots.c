@@ -20,17 +20,17 @@
 enum {
   MAX_COEFFICIENTS = POLYNOMIAL_MAX_DEGREE + 1,
   OUTPUT_BUFFER = 1 << 16,
-  MOST_TOLD = 20 /* lines with roots that are not known; the others are only counted */
+  MOST_TOLD = 20 /* lines with unknown roots that are printed; more are only counted */
 };
 
-/* All roots are asked for, so the default is not the scene's, which finds those in [0,1] only. */
+/* All roots are wanted, so the default is not the scene's, which finds only those in [0,1]. */
 static const char DEFAULT_SOLVER[] = "aberth";
 
-/* The last is no word of --format but --iterates. */
+/* FORMAT_ITERATES is not a value of --format, but stands for --iterates. */
 enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON, FORMAT_ITERATES };
 
 struct request {
-  struct scene_request scene; /* its solver and tolerance alone */
+  struct scene_request scene; /* only its solver and tolerance */
   enum format format;
   const char *stats;
   bool iterates, quiet;
@@ -47,7 +47,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END,
 };
 
-/* The format, which alone is not stored at once. */
+/* Takes the format, the only option that is not stored directly. */
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
   static const char *const names[] = {"plain", "table", "json"};
@@ -67,14 +67,14 @@ struct session {
   struct solver_warm warm;
   struct solver_watch watch;
   size_t polynomials, roots, iterations, accurate, missing;
-  size_t doubtful; /* lines printed in plain with roots that are not known */
+  size_t doubtful; /* lines printed in plain format with unknown roots */
   size_t statuses[ROOT_CLUSTER + 1];
   double solve; /* seconds */
   bool failed;  /* memory was too short for an answer */
-  bool judged;  /* somebody is told how many meet eq 11, which takes several times as long as finding them */
+  bool judged;  /* eq 11 is evaluated, which takes several times as long as finding the roots */
 };
 
-/* Coefficients from the highest power to the constant. The fault's text is NULL where all is well. */
+/* Reads coefficients from the highest power to the constant. The fault's text is NULL if all is well. */
 static struct stream_fault parse_line(const struct stream_line *line, double out_c[MAX_COEFFICIENTS], int *out_degree)
 {
   double high_first[MAX_COEFFICIENTS + 1];
@@ -143,7 +143,7 @@ static void write_plain(const struct root_set *roots)
   putc('\n', stdout);
 }
 
-/* What three digits say that is no less than the radius: rounded to nearest, the disc might lose its root. */
+/* A value that prints, in three digits, as no less than the radius: otherwise the disc might lose its root. */
 static double radius_told(double radius)
 {
   char text[NUMBER_TEXT_SIZE];
@@ -151,7 +151,7 @@ static double radius_told(double radius)
   return strtod(text, NULL) < radius ? radius + 0.501 * pow(10, floor(log10(radius)) - 2) : radius;
 }
 
-/* A row a root, and one for those that are missing. */
+/* A row for each root, and one for the missing roots. */
 static void write_table(const struct answer *answer)
 {
   if (answer->line == 1)
@@ -168,10 +168,10 @@ static void write_table(const struct answer *answer)
     printf("%6zu %24s %24s %10s %-9s %10s %10s\n", answer->line, "-", "-", "-", "missing", "-", "-");
 }
 
-/* JSON knows no infinity. */
+/* JSON has no infinity. */
 static json_t *finite_or_null(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
-/* One object a line; to be freed, NULL where memory is short. */
+/* One object on one line. The caller frees it; NULL if memory is short. */
 static char *json_line(const struct answer *answer)
 {
   json_t *roots = json_array();
@@ -189,7 +189,7 @@ static char *json_line(const struct answer *answer)
   return text;
 }
 
-/* After a line that there was no memory for there is none. */
+/* After memory was too short for one line, no more are written. */
 static void write_json(struct session *session, const struct answer *answer)
 {
   char *text = session->failed ? NULL : json_line(answer);
@@ -198,7 +198,7 @@ static void write_json(struct session *session, const struct answer *answer)
   free(text);
 }
 
-/* --iterates: a row a step, as it is taken. */
+/* --iterates: one row for each step, while it is taken. */
 static void write_iterate(void *context, int root, int step, double re, double im)
 {
   const struct session *session = context;
@@ -208,7 +208,7 @@ static void write_iterate(void *context, int root, int step, double re, double i
   printf("%6zu %6d %6d %24s %24s\n", session->polynomials, step, root, real, imaginary);
 }
 
-/* The plain format has no place for what is not known of a line's roots. */
+/* The plain format cannot show what is unknown about a line's roots, so it is printed to stderr. */
 static void tell_unknown(struct session *session, const struct answer *answer)
 {
   int unknown = 0;
@@ -227,8 +227,8 @@ static void tell_unknown(struct session *session, const struct answer *answer)
 
 /* ---- a polynomial ---- */
 
-/* Coefficients that would overflow when the basis is changed are made smaller by a power of two, the same for all; what
- * that takes from the least of them goes into their bounds. */
+/* Coefficients that would overflow in the change of basis are scaled down by a common power of two. What the smallest
+ * of them lose goes into their error bounds. */
 #define LARGE 0x1p900
 #define SMALLER 0x1p-200
 
@@ -244,8 +244,8 @@ static void to_bernstein(int degree, const double c[], double out_c[], double ou
   polynomial_to_bernstein(&power, out_c, out_error);
 }
 
-/* `basis bernstein` solves the same polynomial in scaled Bernstein form, the rounding of the change of basis known to
- * the solver: zeros that it begins with would not be known for what they are behind it. */
+/* `basis bernstein` solves the same polynomial in scaled Bernstein form, and tells the solver the rounding errors of
+ * the change of basis. Leading zeros are removed before it, because they could not be recognized after it. */
 static void solve(struct session *session, struct answer *answer)
 {
   const double start = clock_seconds(CLOCK_MONOTONIC), *c = answer->power.c;
@@ -282,7 +282,7 @@ static void write_answer(struct session *session, const struct answer *answer)
     break;
   case FORMAT_TABLE: write_table(answer); break;
   case FORMAT_JSON: write_json(session, answer); break;
-  case FORMAT_ITERATES: break; /* written on the way */
+  case FORMAT_ITERATES: break; /* written while solving */
   }
 }
 

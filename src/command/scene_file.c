@@ -1,4 +1,4 @@
-/* A scene from a file, its errors told on stderr. */
+/* Reads a scene from a file. See scene_file.h. */
 #include "command/scene_file.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "command/output.h"
 #include "command/values.h"
 
-/* What has no place is told in the form of command_error. */
+/* Errors without a place in a file have the form of command_error. */
 static void tell(void *context, const char *text, size_t length)
 {
   const char *const *name = context;
@@ -65,7 +65,7 @@ enum status scene_request_take(const struct command *command, void *scene_reques
   return STATUS_OK;
 }
 
-/* A text of a few lines can ask for any number of patches: more than a share of the memory is asked for knowingly. */
+/* A few lines of text can ask for any number of patches, so more than a share of the memory needs an option. */
 size_t scene_request_memory(const struct scene_request *request)
 {
   const size_t most = (size_t)8 << 30, share = 4;

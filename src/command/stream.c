@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "command/scene_file.h"
 
-/* How standard input is called in diagnostics. */
+/* The name of standard input in diagnostics. */
 #define NAME "stdin"
 
 enum {
@@ -17,15 +17,15 @@ enum {
   MAX_LINE = 1 << 20 /* bytes */
 };
 
-/* The stream of a file descriptor, from its first byte. */
+/* Standard input, from its first byte. */
 struct stream {
   bool ended;
   char *buffer;
-  size_t size, begin, end; /* of the buffer, and of what in it is still to be read */
+  size_t size, begin, end; /* of the buffer, and of its unread bytes */
   size_t count;            /* lines or records read */
 };
 
-/* Reads more bytes behind those that are left; waits for them. */
+/* Reads more bytes, after the unread ones; waits for them. */
 static enum status refill(const struct command *command, struct stream *stream)
 {
   memmove(stream->buffer, stream->buffer + stream->begin, stream->end - stream->begin);
@@ -49,8 +49,8 @@ static enum status refill(const struct command *command, struct stream *stream)
   return STATUS_OK;
 }
 
-/* The line or record at the beginning of what is left, false where its end is still to come. A line longer than MAX_LINE
- * comes as the part that has been read. */
+/* Finds the line or record at the beginning of the unread bytes. Returns false if its end has not been read. A line
+ * longer than MAX_LINE is returned as far as it has been read. */
 static bool find_line(const struct stream *stream, size_t record, struct stream_line *out)
 {
   const char *line = stream->buffer + stream->begin;
@@ -87,7 +87,7 @@ int stream_number(const struct stream_line *line, size_t *at, double *out_value,
   return -1;
 }
 
-/* Tells the fault of the line at the beginning of what is left. */
+/* Prints the fault of the line at the beginning of the unread bytes. */
 static enum status explain(const struct command *command, const struct stream *stream, const struct stream_line *line,
                            size_t record, struct stream_fault fault)
 {
@@ -121,7 +121,7 @@ enum status stream_read(const struct command *command, const struct stream_reade
   enum status status = stream.buffer == NULL ? STATUS_LIMIT : STATUS_OK;
   while (status == STATUS_OK && !(stream.ended && stream.begin == stream.end) && !ferror(stdout)) {
     if (!find_line(&stream, reader->record, &line)) {
-      status = write_answers(command, reader); /* of what has come: who asks may wait for them before asking again */
+      status = write_answers(command, reader); /* the sender may wait for these answers before it asks again */
       if (status == STATUS_OK) status = refill(command, &stream);
       continue;
     }

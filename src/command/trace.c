@@ -25,7 +25,7 @@ enum {
 };
 
 struct request {
-  struct scene_request scene; /* first: scene_request_take is told of it */
+  struct scene_request scene; /* first: passed to scene_request_take */
   const char *stats;
   bool binary, certainty, all, explain;
 };
@@ -42,7 +42,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END,
 };
 
-/* Rays that wait for an answer, and who answers them. */
+/* Rays that wait for an answer, and the tracer that answers them. */
 struct session {
   const struct request *request;
   const struct scene *scene;
@@ -50,16 +50,16 @@ struct session {
   size_t number; /* of the rays explained */
   size_t count;
   struct ray rays[PACKET_SIZE];
-  enum status status; /* where it is not STATUS_OK nothing is answered any more */
+  enum status status; /* if not STATUS_OK, nothing more is answered */
 };
 
-/* The numbers of an answer, of which the last is for --certainty; a miss has T infinite and PATCH -1. */
+/* The numbers of an answer, the last of them for --certainty. A miss has T infinite and PATCH -1. */
 static void answer_values(const struct ray *ray, const struct hit *hit, double out[ANSWER_VALUES])
 {
   const bool missed = hit->patch == HIT_NONE;
   memset(out, 0, ANSWER_VALUES * sizeof *out);
   const double distance = missed ? INFINITY : hit->t * vector_length(ray->direction);
-  const bool beyond = !missed && distance > DBL_MAX; /* the last of the doubles, and grazing */
+  const bool beyond = !missed && distance > DBL_MAX; /* becomes the largest double, and grazing */
   out[0] = beyond ? DBL_MAX : distance;
   out[3] = missed ? -1 : (double)hit->patch;
   out[7] = hit->certainty == CERTAINTY_CERTAIN && !beyond;
@@ -106,7 +106,7 @@ static void write_hit(const struct request *request, const struct ray *ray, cons
   (void)fwrite(answer, 1, (size_t)(to - answer), stdout);
 }
 
-/* What stands before a ray's hits. */
+/* Writes the line, or the record, before a ray's hits. */
 static void write_count(const struct request *request, const struct hit_list *list)
 {
   char answer[ANSWER_SIZE], *to = answer;
@@ -116,7 +116,7 @@ static void write_count(const struct request *request, const struct hit_list *li
   (void)fwrite(answer, 1, (size_t)(to - answer), stdout);
 }
 
-/* Answers the rays that wait. */
+/* Answers the waiting rays. */
 static enum status answer(void *context)
 {
   struct session *session = context;
@@ -140,8 +140,8 @@ static enum status answer(void *context)
   return session->status;
 }
 
-/* Makes a ray of six finite numbers; false where the direction is zero. The direction has a power of two taken out, so
- * that its length neither overflows nor underflows, and no t is larger than a distance. */
+/* Makes a ray of six finite numbers; returns false if the direction is zero. The direction is scaled by a power of two,
+ * so that its length neither overflows nor underflows, and no t exceeds a distance. */
 static bool make_ray(const double value[RAY_VALUES], struct ray *out)
 {
   const double largest = fmax(fmax(fabs(value[3]), fabs(value[4])), fabs(value[5]));
@@ -157,7 +157,7 @@ static bool make_ray(const double value[RAY_VALUES], struct ray *out)
   return true;
 }
 
-/* Reads "ox oy oz dx dy dz"; the fault's text is NULL where all is well. */
+/* Reads "ox oy oz dx dy dz". The fault's text is NULL if all is well. */
 static struct stream_fault parse_line(const struct stream_line *line, struct ray *out)
 {
   double value[RAY_VALUES + 1];
@@ -176,7 +176,7 @@ static struct stream_fault parse_line(const struct stream_line *line, struct ray
   return (struct stream_fault){make_ray(value, out) ? NULL : "the direction is zero", direction, last};
 }
 
-/* The same of six little-endian doubles. */
+/* The same for six little-endian doubles. */
 static struct stream_fault parse_record(const struct stream_line *record, struct ray *out)
 {
   double value[RAY_VALUES];
@@ -196,11 +196,11 @@ static struct stream_fault take(void *context, const struct stream_line *line)
   struct session *session = context;
   struct ray *ray = &session->rays[session->count];
   const struct stream_fault fault = session->request->binary ? parse_record(line, ray) : parse_line(line, ray);
-  if (fault.text == NULL && ++session->count == PACKET_SIZE) (void)answer(session); /* which fails again at the end */
+  if (fault.text == NULL && ++session->count == PACKET_SIZE) (void)answer(session); /* fails again at the end */
   return fault;
 }
 
-/* What is asked for, before anything is read: it goes together, and nothing is written over. */
+/* Checks the request before anything is read: options that exclude each other, and files that would be overwritten. */
 static enum status check_request(const struct command *command, struct request *request)
 {
   if (request->explain && request->all)

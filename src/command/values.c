@@ -1,4 +1,4 @@
-/* What stands after an option, read strictly. */
+/* Reads the arguments of options. See values.h. */
 #include "command/values.h"
 
 #include <math.h>
