@@ -1,6 +1,5 @@
-/* Where POV-Ray's triangles can give another colour than the surface they stand for: beside silhouettes, the edges of
- * shadows, creases and borders between textures, half a pixel's difference of the shape is a difference of the whole
- * colour. */
+/* Where POV-Ray's triangles can differ in colour from the surface they approximate. At silhouettes, shadow edges,
+ * creases and borders between textures, half a pixel's difference in shape changes the whole colour. */
 #include "check/measure.h"
 
 #include <math.h>
@@ -13,10 +12,10 @@ const float CHECK_EDGE_COLOR[CHECK_EDGES][3] = {
   {0, 0, 0}, {0.45f, 0.3f, 0.55f}, {0.2f, 0.5f, 0.3f}, {0.25f, 0.4f, 0.7f}};
 const float CHECK_SPOT_COLOR[CHECK_EDGES][3] = {{1, 0.15f, 0.15f}, {1, 0.5f, 1}, {0.4f, 1, 0.5f}, {1, 0.85f, 0.2f}};
 
-static const float DARK = 0.22f; /* our picture below the map, times its value */
+static const float DARK = 0.22f; /* brightness of our picture under the map */
 
-/* Whether the distance jumps between two pixels: by far more than the surface that is seen less obliquely of the two
- * would make it change. Of a smooth surface the other is at most some times as oblique. */
+/* Whether the distance jumps between two pixels: it changes far more than on the less obliquely seen of the two
+ * surfaces. On a smooth surface, the other one is at most a few times as oblique. */
 static bool jumps(const double location[3], const struct check_pixel *a, const struct check_pixel *b)
 {
   static const double MANY = 8;
@@ -34,12 +33,12 @@ static bool have_one_texture(const struct scene *scene, uint32_t a, uint32_t b)
   return a == b || scene->patches[a].texture == scene->patches[b].texture;
 }
 
-/* What there is between two pixels. A smooth surface seen by pixels beside each other turns little and stays near both
+/* The edge between two pixels, if any. Between neighbouring pixels, a smooth surface turns little and stays near both
  * tangent planes. A border between textures counts as a crease. */
 static enum check_edge edge_between(const struct check *check, const struct check_pixel *a, const struct check_pixel *b)
 {
   static const double TURN = 0.9;  /* cosine of 26 degrees */
-  static const double RISE = 0.34; /* sine of 20 degrees: out of a tangent plane */
+  static const double RISE = 0.34; /* sine of 20 degrees: the slope out of a tangent plane */
   const bool a_missed = a->hit.patch == HIT_NONE, b_missed = b->hit.patch == HIT_NONE;
   if (a_missed || b_missed) return a_missed == b_missed ? CHECK_EDGE_NONE : CHECK_EDGE_SILHOUETTE;
   double step[3];
@@ -74,7 +73,7 @@ static void put_color(struct image *image, size_t x, size_t y, const float color
   for (int k = 0; k < 3; k++) image_pixel(image, x, y)[k] = color[k];
 }
 
-/* The pixels over the limit, on an edge or off all; large enough to be seen where the picture is. */
+/* Marks the pixels over the limit, those on edges or those off them, by spots large enough to be seen. */
 static void put_spots(const struct check *check, const struct check_row *row, bool off_edges, struct image *map)
 {
   const size_t reach = check->request->width / 500 + (off_edges && check->request->width > 100);

@@ -1,4 +1,4 @@
-/* Templates filled in. */
+/* Fills in templates. */
 #include "check/fill.h"
 
 #include <stdbool.h>
@@ -10,7 +10,7 @@
 
 enum { MOST_NESTED = 8 };
 
-/* The objects whose names hold, the innermost last. */
+/* Names are looked up in these objects, the innermost last. */
 struct scope {
   const json_t *value[MOST_NESTED];
   size_t depth;
@@ -41,7 +41,7 @@ static void put_escaped(struct text_buffer *out, const char *text)
   }
 }
 
-/* As printf does: the program's locale is C's. */
+/* Like printf: the program's locale is "C". */
 static void put_decimal(struct text_buffer *out, double value, int width, int digits, char letter)
 {
   char text[512]; /* %f of the largest double has 309 digits before the point */
@@ -51,7 +51,7 @@ static void put_decimal(struct text_buffer *out, double value, int width, int di
   text_buffer_add_text(out, text);
 }
 
-/* The shortest text of the number rounded to so many digits. */
+/* The shortest text of the number rounded to `digits` digits. */
 static void put_shortest(struct text_buffer *out, double value, int digits)
 {
   struct text_buffer rounded = {0};
@@ -104,7 +104,7 @@ static void fill_section(struct text_buffer *out, const char *text, size_t lengt
   }
 }
 
-/* Where the section of that name ends: its {{/name}}. */
+/* The end of the section of that name: its {{/name}}. */
 static const char *section_end(const char *text, const char *name, size_t length)
 {
   for (const char *at = text; (at = strstr(at, "{{/")) != NULL; at += 3)

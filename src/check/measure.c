@@ -13,7 +13,7 @@
 
 static const int CODE[CHECK_CODES] = {1, 4, 16};
 
-/* Values are multiples of 1/255 rounded to float: a limit of k/255 is passed by those beyond k only. */
+/* Values are multiples of 1/255 rounded to float: with this margin only values beyond k exceed a limit of k/255. */
 static const double CODE_ROUNDING = 1e-6;
 
 static const size_t RGB[3] = {0, 1, 2};
@@ -28,7 +28,7 @@ static struct ray pixel_ray(const struct check *check, size_t x, size_t y)
   return ray;
 }
 
-/* Linear light to the codes an 8-bit PNG has. */
+/* Converts linear light to the codes of an 8-bit PNG. */
 static void encode(struct image *image)
 {
   struct srgb_table table;
@@ -145,7 +145,7 @@ static void compare_row(const struct check *check, struct check_row *row)
 
 /* ---- distances ---- */
 
-/* From the distances of both on the same rays; `ours` is overwritten. */
+/* Compares both distances on the same rays; `ours` is overwritten. */
 static void compare_distances(size_t count, double ours[], const double theirs[], struct check_distances *out)
 {
   *out = (struct check_distances){.rays = count};
@@ -163,7 +163,7 @@ static void compare_distances(size_t count, double ours[], const double theirs[]
   out->max = ours[out->both - 1];
 }
 
-/* Which pixels POV-Ray hits, and the distances of those on the grid. */
+/* Asks which pixels POV-Ray hits, and for the distances on the grid. */
 static enum status ask(struct check *check, struct check_row *row)
 {
   const struct check_request *request = check->request;

@@ -1,4 +1,4 @@
-/* What a check measures, and who shows it. Internal to this folder. */
+/* The measurements of a check, and the functions that present them. Internal to this folder. */
 #ifndef PSCN_CHECK_MEASURE_H
 #define PSCN_CHECK_MEASURE_H
 
@@ -10,17 +10,17 @@
 
 enum {
   CHECK_CODES = 3, /* the limits 1, 4 and 16 of 255 */
-  CHECK_WORST = 8  /* pixels shown magnified */
+  CHECK_WORST = 8  /* pixels that are shown magnified */
 };
 
-/* What a pixel, or one beside it, lies on; where it is several, the last of these. */
+/* The kind of edge at a pixel or next to it; of several, the last in this order. */
 enum check_edge { CHECK_EDGE_NONE, CHECK_EDGE_CREASE, CHECK_EDGE_SHADOW, CHECK_EDGE_SILHOUETTE, CHECK_EDGES };
 extern const char *const CHECK_EDGE_NAME[CHECK_EDGES];
 
-/* Lights whose shadows' edges are known to be edges; of a scene of more lights, those of the first ones. */
+/* The lights whose shadow edges are recognized as edges: the first ones of the scene. */
 enum { CHECK_LIGHTS = 64 };
 
-/* What we know of a pixel's centre. */
+/* Our answer for a pixel's centre. */
 struct check_pixel {
   struct hit hit;
   double distance; /* scene units; INFINITY on a miss */
@@ -31,13 +31,13 @@ struct check_pixel {
 struct check_ours {
   struct image picture;      /* R G B, display codes of 8 bits as k/255 */
   struct check_pixel *pixel; /* [height][width] */
-  struct seconds time;       /* of reading, building, rendering and encoding, one thread */
+  struct seconds time;       /* of reading, building, rendering and encoding, on one thread */
 };
 
-/* Differences of distances, relative to ours, over the rays that both say hit; NaN where there are none. */
+/* Differences of distances, relative to ours, over the rays that both call hits; NaN if there are none. */
 struct check_distances {
   size_t rays, both, only_ours, only_theirs;
-  double median, p99, max; /* p99: of 99 % no more */
+  double median, p99, max; /* p99: 99 % are at most this */
 };
 
 struct check_row {
@@ -46,15 +46,15 @@ struct check_row {
   unsigned char *mask; /* [height][width]: POV-Ray hits */
   struct compare_result result;
   size_t over[CHECK_CODES], over_limit;
-  size_t over_limit_on[CHECK_EDGES]; /* the pixels over the limit by what they lie on */
-  size_t mask_ours, mask_theirs;     /* pixels only one of us hits */
+  size_t over_limit_on[CHECK_EDGES]; /* the pixels over the limit, by kind of edge */
+  size_t mask_ours, mask_theirs;     /* pixels that only one of both hits */
   struct check_distances distances;
 };
 
-/* A pixel worth a look, with what both say of it. */
+/* One of the worst pixels. */
 struct check_worst {
   size_t x, y;
-  double difference; /* the largest of R G B, of 1 */
+  double difference; /* the largest of R G B; 1 is full light */
   double distance;   /* POV-Ray's; INFINITY on a miss */
 };
 
@@ -62,37 +62,37 @@ struct check {
   const struct check_request *request;
   const struct listener *listener;
   struct povray povray;
-  struct scene *scene; /* its steps are changed from row to row */
+  struct scene *scene; /* its steps change from row to row */
   struct check_ours ours;
   struct check_row row[CHECK_MAX_STEPS + 1];
   size_t row_count;
   struct check_worst worst[CHECK_WORST]; /* of the last row */
   size_t worst_count;
-  struct text_buffer warnings; /* POV-Ray's, of the scene as written */
+  struct text_buffer warnings; /* POV-Ray's warnings on the scene as written */
 };
 
 /* ---- measure.c ---- */
 
-/* Renders, and looks at every pixel. Errors are told. */
+/* Renders, and examines every pixel. Errors go to the listener. */
 enum status check_measure_ours(struct check *check) STATUS_MUST_CHECK;
 void check_ours_free(struct check_ours *ours);
 
-/* Adds a row, of the scene as it stands in check->scene; where steps is 0, and it is asked for, of its own text. */
+/* Adds a row for the scene in check->scene, or, if steps is 0 and the request asks for it, for its own text. */
 enum status check_measure_row(struct check *check, size_t steps) STATUS_MUST_CHECK;
 void check_row_free(struct check_row *row);
 
-/* Finds the worst pixels of the last row and asks for their distances. */
+/* Finds the worst pixels of the last row, and asks POV-Ray for their distances. */
 enum status check_find_worst(struct check *check) STATUS_MUST_CHECK;
 
-/* The difference of a row, `scale` times as large, as a picture. STATUS_LIMIT where memory is short. */
+/* The difference of a row as a picture, multiplied by `scale`. STATUS_LIMIT if memory is short. */
 enum status check_difference(const struct check *check, const struct check_row *row, double scale,
                              struct image *out) STATUS_MUST_CHECK;
 
-/* The largest difference of a pixel's R G B, and beyond what it is over the limit. */
+/* A pixel's largest difference in R G B, and the limit of that. */
 double check_pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y);
 double check_limit(const struct check *check);
 
-/* Whether the last row is within the limits; if not, `out` says what is beyond them. */
+/* Whether the last row is within the limits; if not, `out` says which one it exceeds. */
 bool check_within_limits(const struct check *check, char *out, size_t size);
 
 /* ---- edges.c ---- */
@@ -100,19 +100,20 @@ bool check_within_limits(const struct check *check, char *out, size_t size);
 /* Finds the edges among our pixels. */
 void check_find_edges(struct check *check);
 
-/* Our picture, dark, with its edges, and on it the pixels over the limit, as spots. The colours R G B, 0 to 1, of what
- * is on the map: the edges, and the spots by what they lie on. STATUS_LIMIT where memory is short. */
+/* A map of our picture, darkened, with its edges, and with the pixels over the limit as spots. The colours are R G B, 0
+ * to 1, of the edges, and of the spots by kind of edge. STATUS_LIMIT if memory is short. */
 extern const float CHECK_EDGE_COLOR[CHECK_EDGES][3], CHECK_SPOT_COLOR[CHECK_EDGES][3];
 enum status check_map(const struct check *check, const struct check_row *row, struct image *out) STATUS_MUST_CHECK;
 
 /* ---- report.c ---- */
 
-/* All numbers, for check.json; NULL where memory is short. */
+/* All numbers, for check.json; NULL if memory is short. */
 json_t *check_json(const struct check *check);
 
 /* ---- results.c ---- */
 
-/* Writes all results; `verdict` is one sentence. *out_text receives the numbers as a table. Errors are told. */
+/* Writes all results; `verdict` is one sentence. *out_text receives the numbers as a table. Errors go to the
+ * listener. */
 enum status check_write(const struct check *check, const char *verdict, struct text_buffer *out_text) STATUS_MUST_CHECK;
 
 #endif

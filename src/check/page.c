@@ -1,4 +1,4 @@
-/* What pages are filled with, and their files. Base64: RFC 4648, section 4. */
+/* Values for pages, and their files. Base64: RFC 4648, section 4. */
 #include "check/page.h"
 
 #include <math.h>
@@ -80,7 +80,7 @@ json_t *page_of_png(const struct text_buffer *png)
   return take_text(&text);
 }
 
-/* The processor's name where Linux tells it, else the machine's kind; never whose machine it is. */
+/* The processor's name if Linux tells it, else the kind of machine; never a name that identifies the machine. */
 static void find_machine(char *out, size_t size)
 {
   struct utsname system;

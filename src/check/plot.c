@@ -1,4 +1,4 @@
-/* Running gnuplot. */
+/* Runs gnuplot. */
 #include "check/plot.h"
 
 #include <errno.h>
@@ -13,7 +13,7 @@ static const char SCRIPT[] = "figure.gp", FIGURE[] = "figure.svg", LOG[] = "gnup
 
 #define TIMEOUT 120.0 /* seconds; a figure takes less than one */
 
-/* gnuplot has its texts beside points shown by a script of its own; HTML and SVG have titles for that. */
+/* gnuplot shows the texts of points by a script of its own; HTML and SVG have titles for that. */
 static void copy_with_titles(const char *svg, struct text_buffer *out)
 {
   static const char BEGIN[] = " onmousemove=\"gnuplot_svg.showHypertext(evt,'", END[] = "</title>";
@@ -27,7 +27,7 @@ static void copy_with_titles(const char *svg, struct text_buffer *out)
   text_buffer_add_text(out, svg);
 }
 
-/* What gnuplot wrote, if it is whole. */
+/* Reads the figure that gnuplot wrote, if it is complete. */
 static void read_figure(const struct scratch *folder, struct text_buffer *out)
 {
   static const char LAST[] = "</svg>";

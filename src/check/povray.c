@@ -1,4 +1,4 @@
-/* Running POV-Ray 3.7. */
+/* Runs POV-Ray 3.7. See povray.h. */
 #include "check/povray.h"
 
 #include <errno.h>
@@ -14,7 +14,7 @@
 #include "language/plain_copy.h"
 #include "scene/dump.h"
 
-/* In our folder; POV-Ray runs in RUN, which is new for each run. */
+/* In our folder. POV-Ray runs in its subfolder RUN, which is new for each run. */
 static const char LOG[] = "povray.log", HOME[] = "home";
 #define RUN "run"
 
@@ -23,7 +23,7 @@ static const char LOG[] = "povray.log", HOME[] = "home";
 #define PICTURE "picture.png"
 #define ANSWERS "answers.txt"
 
-/* Only what it is installed with may be read, beside its folder, and no program be run; where it keeps to that. */
+/* It may read only its own folder and the files installed with it, and run no program, as far as it obeys that. */
 static const char RESTRICTIONS[] = "[File I/O Security]\nrestricted\n[Shellout Security]\nforbidden\n"
                                    "[Permitted Paths]\nread* = %INSTALLDIR%/include\nread+write = .\n";
 
@@ -35,7 +35,7 @@ static enum status cannot_write(const struct povray *povray, const char *name)
 
 /* ---- what it says ---- */
 
-/* All it said, printable; `failed` where memory is short for it. */
+/* All its output, made printable; `failed` if memory is short. */
 static struct text_buffer read_log(const struct povray *povray)
 {
   struct text_buffer log = {0};
@@ -57,7 +57,7 @@ static void note_version(struct povray *povray, const struct text_buffer *log)
   snprintf(povray->version, sizeof povray->version, "%.*s", (int)strcspn(at, " \n"), at);
 }
 
-/* Shows the end of what it said, which begins where it reads the scene if it got so far. */
+/* Shows the end of its output, from where it begins to parse the scene, if it does. */
 static void show_log(const struct povray *povray, const struct text_buffer *log)
 {
   enum { SHOWN = 4000 };
@@ -76,7 +76,7 @@ static bool holds(const char *line, size_t length, const char *words)
   return false;
 }
 
-/* It breaks its messages into lines, which begin with a blank but for the first. */
+/* POV-Ray breaks its messages into lines, of which all but the first begin with a blank. */
 void povray_warnings(const struct povray *povray, struct text_buffer *out)
 {
   struct text_buffer log = read_log(povray);
@@ -94,7 +94,7 @@ void povray_warnings(const struct povray *povray, struct text_buffer *out)
 
 /* ---- running it ---- */
 
-/* Takes the folder of the last run away and makes a new one. */
+/* Removes the folder of the last run and makes a new one. */
 static enum status begin_run(const struct povray *povray)
 {
   struct scratch run = {.keeper = 0};
@@ -145,7 +145,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
   return out->exit_code == 0 ? STATUS_OK : STATUS_INPUT;
 }
 
-/* Asks the program what it is: so that a missing one is told before the work starts. */
+/* Asks the program for its version, so that its absence is reported before the work starts. */
 static enum status ask_version(struct povray *povray)
 {
   const char *const arguments[] = {povray->program, "--version", NULL};
@@ -157,7 +157,7 @@ static enum status ask_version(struct povray *povray)
   return status;
 }
 
-/* The folder that is its home, with the restrictions where it looks for them. */
+/* Makes the folder that is its HOME, with the restrictions where it looks for them. */
 static enum status make_home(const struct povray *povray)
 {
   static const char *const FOLDERS[] = {"home", "home/.povray", "home/.povray/3.7"};
@@ -177,7 +177,7 @@ enum status povray_open(struct povray *povray)
 {
   if (scratch_create(&povray->folder) != STATUS_OK)
     return listener_fail(povray->listener, STATUS_FILE, "cannot make a folder in $TMPDIR or /tmp: %s", strerror(errno));
-  if (strchr(povray->program, '/') != NULL && povray->program[0] != '/') { /* it runs in another folder than ours */
+  if (strchr(povray->program, '/') != NULL && povray->program[0] != '/') { /* it will run in another folder */
     char here[SCRATCH_PATH_SIZE];
     const int length = getcwd(here, sizeof here) == NULL
                          ? -1
@@ -193,7 +193,7 @@ enum status povray_open(struct povray *povray)
 
 void povray_close(struct povray *povray) { scratch_remove(&povray->folder); }
 
-/* Runs it on TEXT, which stands in RUN; the picture stands in PICTURE then. */
+/* Runs it on TEXT, which is in RUN; the picture is then in PICTURE. */
 static enum status run_on_text(struct povray *povray, const char *what, bool pictured, struct process_result *out)
 {
   enum { OURS = 16 };
@@ -242,7 +242,7 @@ static enum status render_text(struct povray *povray, const char *what, struct p
   return status == STATUS_OK ? read_picture(povray, &out->image) : status;
 }
 
-/* What it is given to read: a scene, and rays to ask its trace() about, or none. */
+/* What POV-Ray is to read: a scene, and rays for its trace(), if any. */
 struct question {
   const struct scene *scene;
   size_t count;
@@ -250,7 +250,7 @@ struct question {
 };
 typedef enum status text_writer(const struct question *question, FILE *file);
 
-/* Writes TEXT: by `write`, which answers as scene_dump does. */
+/* Writes TEXT by `write`, which returns what scene_dump does. */
 static enum status write_text(const struct povray *povray, text_writer *write, const struct question *question)
 {
   enum status status = begin_run(povray);
@@ -292,7 +292,7 @@ enum status povray_render_file(struct povray *povray, const char *path, const ch
 
 /* ---- what it hits ---- */
 
-/* The scene in white that no light changes, on black. Its textures are to be freed; NULL where memory is short. */
+/* The scene in white, unaffected by light, on black. The caller frees its textures; NULL if memory is short. */
 static struct scene flatten(const struct scene *scene)
 {
   const struct scene_texture white = {
@@ -318,7 +318,7 @@ static void put_vector(FILE *file, const double v[3])
   fputc('>', file);
 }
 
-/* A scene of one object, and questions whose reading writes a line for each ray. */
+/* Writes a scene of one object, and questions that write a line for each ray when they are parsed. */
 static enum status write_questions(const struct question *question, FILE *file)
 {
   struct scene empty = *question->scene;
@@ -389,8 +389,8 @@ enum status povray_ask(struct povray *povray, const struct scene *scene, size_t 
   return status;
 }
 
-/* "Trace Time: 0 hours 0 minutes 1 seconds (1.234 seconds)", and below it "using 1 thread(s) with 1.200 CPU-seconds
- * total". */
+/* Reads the log: "Trace Time: 0 hours 0 minutes 1 seconds (1.234 seconds)", then "using 1 thread(s) with 1.200
+ * CPU-seconds total". */
 enum status povray_time(struct povray *povray, const struct scene *scene, double *out)
 {
   static const char BEFORE[] = ") with ";

@@ -24,10 +24,10 @@
 
 enum {
   EXIT_SIGNAL = 128,
-  POLL_NANOSECONDS = 2000000 /* between looks at the child: far below what a rendering takes */
+  POLL_NANOSECONDS = 2000000 /* between two looks at the child: far less than a rendering takes */
 };
 
-#define GRACE 1.0 /* seconds between asking a child to end and making it */
+#define GRACE 1.0 /* seconds from asking a child to end to forcing it */
 
 /* CPU time of the children waited for so far. */
 static double children_seconds(void)
@@ -38,7 +38,7 @@ static double children_seconds(void)
          1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
-/* Turns the child's outputs and input to where they belong. */
+/* Redirects the child's input and outputs. */
 static bool redirect(const char *output)
 {
   const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -55,7 +55,7 @@ bool process_can_confine(void)
   return syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION) > 0;
 }
 
-/* Lets us, and whoever we become, write in the folder we are in only. */
+/* Lets this process, and the program it becomes, write only in the current folder. */
 static bool confine(void)
 {
   static const uint64_t WRITING = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
@@ -76,7 +76,7 @@ bool process_can_confine(void) { return false; }
 static bool confine(void) { return true; }
 #endif
 
-/* A limit that is no higher than it was. */
+/* Lowers a limit; never raises it. */
 static const struct rlimit *lower(struct rlimit *limit, size_t most)
 {
   if (limit->rlim_cur > most) limit->rlim_cur = limit->rlim_max = most;
@@ -94,7 +94,7 @@ static bool limit_resources(size_t memory)
 static bool restrict_program(const struct process_request *request, pid_t parent)
 {
 #if defined(__linux__)
-  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) /* it may have ended before we asked */
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) /* the parent may have ended before that call */
     return false;
 #else
   (void)parent;
@@ -102,7 +102,7 @@ static bool restrict_program(const struct process_request *request, pid_t parent
   return limit_resources(request->memory) && (!request->confined || !process_can_confine() || confine());
 }
 
-/* In the child: becomes the program, or tells why not through the pipe, which a started program closes. */
+/* In the child: becomes the program, or sends the reason why not through the pipe, which exec closes. */
 static void become(const struct process_request *request, int report, pid_t parent)
 {
   static const int OURS[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGXFSZ};
@@ -117,7 +117,7 @@ static void become(const struct process_request *request, int report, pid_t pare
   _exit(EXIT_SIGNAL - 1);
 }
 
-/* Waits for the end of the child; STATUS_INTERRUPTED where `stop`, STATUS_LIMIT where the clock's `end` came first. */
+/* Waits for the child to end. Returns STATUS_INTERRUPTED if `stop` came first, STATUS_LIMIT if the time `end` did. */
 static enum status wait_child(pid_t child, const atomic_int *stop, double end, int *out_state)
 {
   const struct timespec pause = {.tv_nsec = POLL_NANOSECONDS};
@@ -135,7 +135,7 @@ static void end_child(pid_t child)
   int state;
   (void)kill(-child, SIGTERM);
   const enum status ended = wait_child(child, NULL, clock_seconds(CLOCK_MONOTONIC) + GRACE, &state);
-  (void)kill(-child, SIGKILL); /* and whoever else is left of its group */
+  (void)kill(-child, SIGKILL); /* and the rest of its group */
   if (ended != STATUS_OK) (void)wait_child(child, NULL, INFINITY, &state);
 }
 
@@ -159,7 +159,7 @@ enum status process_run(const struct process_request *request, const atomic_int 
     out->reason = fork_reason;
     return STATUS_FILE;
   }
-  (void)setpgid(child, child); /* both sides do it: whichever comes first */
+  (void)setpgid(child, child); /* both sides call it, because either may run first */
   ssize_t told;
   do told = read(report[0], &out->reason, sizeof out->reason);
   while (told < 0 && errno == EINTR);

@@ -1,8 +1,8 @@
-/* Another program, run to its end.
+/* Runs another program to its end.
  *
- * The program gets a process group of its own, so that a key pressed at the terminal reaches us alone; when `stop`
- * turns nonzero or its time is over the whole group is asked to end, then made to, and is reaped. Where we are killed,
- * Linux kills it too. One program at a time, started from a thread that outlives it.
+ * The program gets its own process group, so that a key pressed at the terminal reaches only us. If `stop` turns
+ * nonzero, or its time is over, the whole group is asked to end, then forced to, and the program is reaped. If we are
+ * killed, Linux kills it too. Only one program at a time, started by a thread that outlives it.
  */
 #ifndef PSCN_CHECK_PROCESS_H
 #define PSCN_CHECK_PROCESS_H
@@ -15,29 +15,29 @@
 #include "base/status.h"
 
 struct process_request {
-  const char *const *arguments; /* ended by NULL; [0] is the program, looked for along PATH where it has no slash */
-  const char *folder;           /* where it runs, or NULL: here */
-  /* pairs NAME, VALUE, ended by NULL, that change ours (a VALUE of NULL unsets); or NULL */
+  const char *const *arguments; /* ended by NULL; [0] is the program, searched for in PATH if it has no slash */
+  const char *folder;           /* where it runs; NULL: here */
+  /* pairs NAME, VALUE, ended by NULL, that change our environment (VALUE NULL: unset); or NULL */
   const char *const *environment;
-  const char *output; /* file that receives what it says on both outputs, seen from our folder */
-  double timeout;     /* seconds by the clock that it may take; 0: any */
-  size_t memory;      /* bytes that it may address, and that a file of its may have; 0: any */
-  bool confined;      /* it may write in `folder` only, where the system can see to that */
+  const char *output; /* file for both its outputs, relative to our folder */
+  double timeout;     /* seconds of wall time that it may take; 0: no limit */
+  size_t memory;      /* limit on its address space and on each of its files, in bytes; 0: none */
+  bool confined;      /* it may write only in `folder`, if the system can enforce that */
 };
 
 struct process_result {
-  bool missing;        /* there is no such program, or it may not be run; `reason` says why, the rest is unset */
-  int reason;          /* errno of a program that could not be started, or 0 */
-  int exit_code;       /* 128 + the signal's number where a signal ended it */
-  struct seconds time; /* by the clock, and of the processor by the program and those it waited for */
+  bool missing;        /* the program does not exist or may not be run; `reason` says why, the rest is unset */
+  int reason;          /* errno if the program could not be started, or 0 */
+  int exit_code;       /* 128 + the signal's number if a signal ended it */
+  struct seconds time; /* wall time, and CPU time of the program and those it waited for */
 };
 
-/* Standard input is empty. STATUS_FILE where it could not be started, STATUS_INTERRUPTED where `stop` ended it,
- * STATUS_LIMIT where the time did; an exit code other than 0 is a result. */
+/* Runs the program, with empty standard input. Returns STATUS_FILE if it could not be started, STATUS_INTERRUPTED or
+ * STATUS_LIMIT if `stop` or the time limit ended it. An exit code other than 0 is a result. */
 enum status process_run(const struct process_request *request, const atomic_int *stop,
                         struct process_result *out) STATUS_MUST_CHECK;
 
-/* Whether the system can see to `confined`: Linux with Landlock (5.13). */
+/* Whether the system can enforce `confined`: Linux with Landlock (5.13). */
 bool process_can_confine(void);
 
 #endif

@@ -1,5 +1,5 @@
-/* The files of a check: its pictures, its numbers, and its page, which is read without script: the slider is a box that
- * the reader makes wider; where scripts run, a control below it does the same. */
+/* The files of a check: its pictures, its numbers, and its page. The page works without scripts: its slider is a box
+ * that the reader widens; where scripts run, a control below it does the same. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,17 +11,17 @@
 #include "check/plot.h"
 #include "check/templates.h"
 
-/* Differences are shown so many times as large: 16 codes are full light. */
+/* The factor by which differences are magnified: 16 codes become full light. */
 #define MAGNIFIED 16.0
 
-enum { CROP = 15 }; /* pixels around a worst one */
+enum { CROP = 15 }; /* size of the crop around one of the worst pixels */
 
-/* The files, in this order: ours, two for each row there might be, the numbers, the page. */
+/* The files, in this order: our picture, two for each possible row, the numbers, the page. */
 enum { ROWS = CHECK_MAX_STEPS + 1, FILE_JSON = 1 + 2 * ROWS, FILE_PAGE, FILES = CHECK_FILES };
 
 struct results {
   const struct check *check;
-  struct text_buffer content[FILES]; /* what there is not is not to be there */
+  struct text_buffer content[FILES]; /* empty: the file must not exist */
   char path[FILES][PAGE_PATH_SIZE];
   bool failed; /* memory was short */
 };
@@ -72,7 +72,7 @@ static void name_files(struct results *results)
   }
 }
 
-/* A picture as a value, and nothing left of it. */
+/* Turns a picture into a value, and destroys it. */
 static json_t *take_picture(struct image *image)
 {
   struct text_buffer png;
@@ -83,14 +83,14 @@ static json_t *take_picture(struct image *image)
   return value;
 }
 
-/* CROP x CROP pixels around (x, y), black beyond the border. */
+/* CROP x CROP pixels around (x, y), black outside the picture. */
 static json_t *crop_of(const struct image *image, size_t x, size_t y)
 {
   struct image crop;
   if (image_create(CROP, CROP, 3, &crop) != STATUS_OK) return NULL;
   for (size_t k = 0; k < CROP * CROP; k++) {
     const size_t u = k % CROP, v = k / CROP;
-    const size_t from_x = x + u - CROP / 2, from_y = y + v - CROP / 2; /* wraps to something large */
+    const size_t from_x = x + u - CROP / 2, from_y = y + v - CROP / 2; /* negative numbers wrap to large ones */
     for (size_t c = 0; c < 3 && from_x < image->width && from_y < image->height; c++)
       image_pixel(&crop, u, v)[c] = image_pixel(image, from_x, from_y)[c];
   }
@@ -129,7 +129,7 @@ static void add_rows(struct results *results, json_t *rows)
   }
 }
 
-/* The pixels over the limit in the last row, and what they lie on. */
+/* Adds the pixels over the limit in the last row, by kind of edge. */
 static void add_places(struct results *results, json_t *root)
 {
   static const char *const NAME[CHECK_EDGES] = {"not on an edge", "on creases", "on edges of shadows",
@@ -173,7 +173,7 @@ static void add_worst(struct results *results, json_t *list)
   image_destroy(&difference);
 }
 
-/* How POV-Ray's answer nears ours, where there is anything to draw. */
+/* Draws how POV-Ray's answer approaches ours, if there is anything to draw. */
 static enum status add_figure(struct results *results, json_t *root)
 {
   const struct check *check = results->check;

@@ -1,4 +1,4 @@
-/* A temporary folder. */
+/* A temporary folder. See scratch.h. */
 #define _GNU_SOURCE /* nftw, MAP_ANONYMOUS */
 #include "check/scratch.h"
 
@@ -19,7 +19,7 @@
 
 enum {
   OPEN_FOLDERS = 16,
-  REMOVALS = 100, /* tries of the keeper, while the program that wrote in the folder is ended by the system, */
+  REMOVALS = 100,              /* the keeper's tries, while the system ends the program that wrote in the folder, */
   PAUSE_NANOSECONDS = 10000000 /* and the time between them */
 };
 
@@ -32,19 +32,19 @@ static int remove_one(const char *path, const struct stat *state, int kind, stru
 
 static void remove_all(const char *path) { (void)nftw(path, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS); }
 
-/* Waits for the pipe to end, which is when nobody is left who could remove the folder. `path`: as far as it is
+/* Waits for the pipe to close, when no process is left that could remove the folder. `path` is as far as it is
  * known. */
 static void keep(int alive, const char *path)
 {
   const struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};
   char none;
-  (void)setpgid(0, 0); /* what is typed at the terminal is not for us */
+  (void)setpgid(0, 0); /* the terminal's signals are not for us */
   while (read(alive, &none, 1) < 0 && errno == EINTR) continue;
   for (int k = 0; k < REMOVALS && access(path, F_OK) == 0; k++, (void)nanosleep(&pause, NULL)) remove_all(path);
   _exit(0);
 }
 
-/* Without a keeper, for which there may be no room, the folder stays if we are killed. */
+/* Without a keeper, for which memory may be short, the folder stays if we are killed. */
 static void start_keeper(struct scratch *scratch, const char *path)
 {
   int ends[2];
@@ -73,8 +73,8 @@ static void end_keeper(struct scratch *scratch)
   scratch->keeper = 0;
 }
 
-/* The keeper is there first and sees the name in memory that is shared, in which mkdtemp writes it before the folder is
- * made: so there is no moment at which the folder is nobody's. */
+/* The keeper starts first. It reads the name from shared memory, into which mkdtemp writes it before making the folder,
+ * so that the folder always has an owner. */
 enum status scratch_create(struct scratch *out)
 {
   const char *place = getenv("TMPDIR");
