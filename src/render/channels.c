@@ -1,4 +1,4 @@
-/* What a picture can tell of each pixel: the table and the reading of lists. */
+/* The channels of a picture: their table, and the reading of lists. */
 #include "render/channels.h"
 
 #include <string.h>
@@ -21,7 +21,7 @@ static const struct channel_traits TRAITS[CHANNEL_KINDS] = {
 
 const struct channel_traits *channel_traits(enum channel_kind kind) { return &TRAITS[kind]; }
 
-/* CHANNEL_KINDS where there is none of that name. */
+/* Returns CHANNEL_KINDS if there is none of that name. */
 static enum channel_kind find(const char *name, size_t length)
 {
   int kind = 0;

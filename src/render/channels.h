@@ -1,4 +1,4 @@
-/* What a picture can tell of each pixel: colour, and the numbers of the hit it stands for. */
+/* The channels of a picture: colour, and numbers of the hit that each pixel stands for. */
 #ifndef PSCN_RENDER_CHANNELS_H
 #define PSCN_RENDER_CHANNELS_H
 
@@ -8,18 +8,19 @@
 enum channel_kind {
   CHANNEL_RGB,      /* linear colour, the mean of the pixel's samples */
   CHANNEL_COVERAGE, /* share of the pixel's samples that hit a patch, 0 to 1 */
-  /* From here on the numbers of one sample: the middle one, (N/2, N/2) of N x N, the pixel's centre where N is odd. */
+  /* From here on, numbers of one sample: the middle one, (N/2, N/2) of N x N, which is the pixel's centre if N is
+   * odd. */
   CHANNEL_DEPTH, /* distance from the camera in scene units; infinite on a miss */
   CHANNEL_U,     /* parameters of the whole patch; 0 on a miss */
   CHANNEL_V,
   CHANNEL_PATCH,  /* the patch's number, from 0; -1 on a miss */
   CHANNEL_NORMAL, /* unit normal facing the camera; 0 on a miss */
   CHANNEL_STATUS, /* enum channel_status */
-  /* What the scene's solver did for the sample, over all leaves of patches that it came to (intersect/explain.h). */
+  /* The work of the scene's solver for the sample, over all leaves that its ray came to (intersect/explain.h). */
   CHANNEL_ITERATIONS, /* of all roots */
   CHANNEL_ROOTS,      /* how many roots it found */
   CHANNEL_RESIDUAL,   /* eq 11's ratio |P|/delta of the root that is the hit; 0 on a miss */
-  CHANNEL_DEVIATION,  /* |T - T'|/T', T' being the default solver's, certified; 0 where both miss, infinite where one */
+  CHANNEL_DEVIATION,  /* |T - T'|/T', T' by the default solver, certified; 0 if both miss, infinite if one does */
   CHANNEL_KINDS
 };
 
@@ -34,28 +35,28 @@ enum channel_status {
 struct channel_traits {
   const char *name;           /* as in --channels */
   const char *summary;        /* one line for `pscn help channels` */
-  size_t width;               /* values a pixel */
-  const char *value_names[3]; /* what the file calls them */
-  bool data;                  /* numbers rather than light */
+  size_t width;               /* values per pixel */
+  const char *value_names[3]; /* their names in the file */
+  bool data;                  /* numbers, not light */
 };
 
 const struct channel_traits *channel_traits(enum channel_kind kind);
 
 /* Channels of a picture, in order, each at most once. */
 struct channel_list {
-  size_t count, width; /* width: values a pixel, of all together */
+  size_t count, width; /* width: values per pixel, of all channels */
   enum channel_kind kind[CHANNEL_KINDS];
 };
 
-/* Whether any of the list is of what the solver did, and whether the list has that one. */
+/* Whether any channel of the list is about the solver's work, and whether the list has this channel. */
 bool channel_list_measures(const struct channel_list *list);
 bool channel_list_has(const struct channel_list *list, enum channel_kind kind);
 
-/* Whether it is rgb alone, which is all that a PNG holds. */
+/* Whether the list is rgb alone, all that a PNG holds. */
 bool channel_list_is_rgb(const struct channel_list *list);
 
-/* Reads names with commas between them. false: *out_bad .. + *out_bad_length is the name that is unknown or stands
- * twice (possibly empty), and *out is unchanged. */
+/* Reads names separated by commas. On false, *out_bad .. + *out_bad_length is the name (possibly empty) that is unknown
+ * or appears twice, and *out is unchanged. */
 bool channel_list_parse(const char *text, struct channel_list *out, const char **out_bad, size_t *out_bad_length);
 
 #endif

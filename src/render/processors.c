@@ -1,4 +1,4 @@
-/* How many processors this process may use: those its affinity mask allows, which containers and taskset(1) narrow. */
+/* The processors that this process may use: those of its affinity mask, which containers and taskset(1) restrict. */
 #define _GNU_SOURCE 1 /* for sched_getaffinity and CPU_COUNT */
 #include <sched.h>
 #include <unistd.h>

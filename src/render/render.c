@@ -1,4 +1,4 @@
-/* A picture of a scene: threads that take tiles from a common counter, watched by the thread that asked. */
+/* A picture of a scene: threads take tiles from a common counter, while the calling thread watches. */
 #include "render/render.h"
 
 #include <errno.h>
@@ -11,11 +11,11 @@
 #include "render/threads.h"
 
 enum {
-  WATCH_NANOSECONDS = 100 * 1000 * 1000, /* between two looks at progress and stop */
+  WATCH_NANOSECONDS = 100 * 1000 * 1000, /* between two looks at progress */
   NANOSECONDS = 1000 * 1000 * 1000
 };
 
-/* What the threads share. The mutex guards `running` only; the rest is atomic or read-only. */
+/* Shared by the threads. The mutex guards only `running`; the rest is atomic or read-only. */
 struct crew {
   const struct tile_job *job;
   const struct render_watch *watch;
@@ -31,7 +31,7 @@ struct crew {
 };
 
 struct worker {
-  struct tracer *tracer, *certified; /* certified: NULL unless it is asked for */
+  struct tracer *tracer, *certified; /* certified: NULL unless needed */
 };
 
 static uint64_t count_rays(const struct tracer *tracer)
@@ -68,7 +68,7 @@ static enum status work(void *context, size_t index)
   return STATUS_OK;
 }
 
-/* Waits for the last worker, telling progress. */
+/* Waits for the last worker, and reports progress. */
 static void watch_crew(struct crew *crew, double start)
 {
   const struct render_watch *watch = crew->watch;
@@ -126,7 +126,7 @@ static enum status crew_synchronise(struct crew *crew)
   return status;
 }
 
-/* The same scene by the default solver, whose answers are proven. Borrows the scene. */
+/* The same scene with the default solver, whose answers are proven. Borrows the scene. */
 struct certified {
   struct scene scene;
   struct method method;
@@ -165,7 +165,7 @@ static void add_counts(struct intersect_counts *sum, const struct intersect_coun
   sum->grazing += counts->grazing;
 }
 
-/* A tracer for each worker, and one of the certified scene where there is one. */
+/* Makes a tracer for each worker, and one of the certified scene if there is one. */
 static enum status workers_create(struct worker workers[], size_t count, const struct intersector *intersector,
                                   const struct intersector *certified)
 {
@@ -177,7 +177,7 @@ static enum status workers_create(struct worker workers[], size_t count, const s
   return status;
 }
 
-/* Adds up what they have done, too. */
+/* Also adds up their counts. */
 static void workers_destroy(struct worker workers[], size_t count, struct intersect_counts *sum)
 {
   for (size_t k = 0; k < count && workers[k].tracer != NULL; k++) {

@@ -8,9 +8,9 @@
 
 #include "geometry/vector.h"
 
-/* Where shadow rays end, of the way to the light. The place at which a ray meets a surface under an angle of sine s is
- * known to about eps / s of the way, eps = 2^-52: this end is short of a surface that holds the light for all s >
- * 2^-26. */
+/* The end of shadow rays, as a fraction of the way to the light. Where a ray meets a surface under an angle of sine s
+ * is known to about eps / s of the way, eps = 2^-52. This end is therefore before a surface that holds the light for
+ * all s > 2^-26. */
 static const double SHADOW_END = 1 - 0x1p-26;
 
 /* A lit point seen along a ray. */
@@ -25,8 +25,8 @@ static const struct scene_texture *texture_of(const struct scene *scene, const s
   return &scene->textures[scene->patches[hit->patch].texture];
 }
 
-/* A cosine, not above 1 but by rounding, to a power that may be as large or as negative as a float: no larger than one, so
- * that times the colours, which are floats too, it is a number. */
+/* A cosine, above 1 at most by rounding, to a power as large or as negative as a float. At most FLT_MAX, so that its
+ * product with colours, which are also floats, is finite. */
 static double power(double cosine, double exponent) { return fmin(pow(fmin(cosine, 1), exponent), FLT_MAX); }
 
 static double phong(const struct view *view, const double to_light[3])
@@ -48,13 +48,13 @@ static double specular(const struct view *view, const double to_light[3])
   return cosine > 0 ? finish->specular * power(cosine, 1 / finish->roughness) : 0;
 }
 
-/* Adds what a visible light gives; to_light is the unit vector L, cosine = N.L > 0. */
+/* Adds a visible light's contribution; to_light is the unit vector L, cosine = N.L > 0. */
 static void add_light(const struct view *view, const struct scene_light *light, const double to_light[3], double cosine,
                       double rgb[3])
 {
   const struct scene_finish *finish = &view->texture->finish;
   const double part = finish->brilliance == 1 ? cosine : power(cosine, finish->brilliance);
-  const double diffuse = finish->diffuse > 0 ? finish->diffuse * part : 0; /* as the highlights: nothing darkens */
+  const double diffuse = finish->diffuse > 0 ? finish->diffuse * part : 0; /* like the highlights, it never darkens */
   double highlight = 0;
   if (!light->shadowless) {
     highlight += finish->phong > 0 ? phong(view, to_light) : 0;
@@ -71,7 +71,7 @@ bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, st
   hit_leave(hit, way, out->origin);
   vector_subtract(light->position, out->origin, out->direction);
   const double *d = out->direction;
-  if (d[0] == 0 && d[1] == 0 && d[2] == 0) /* a light at the very point we moved to */
+  if (d[0] == 0 && d[1] == 0 && d[2] == 0) /* the light is at the very point we moved to */
     memcpy(out->direction, way, sizeof way);
   out->t_min = 0;
   out->t_max = SHADOW_END;
@@ -93,7 +93,7 @@ void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t co
     if (out_lit[k]) out_lit[k] = !hidden[ray++];
 }
 
-/* One light on the hits of a packet. */
+/* Adds one light to the hits of a packet. */
 static void light_packet(const struct scene_light *light, struct tracer *tracer, size_t count,
                          const struct view views[], const struct hit hits[], double out_rgb[][3])
 {

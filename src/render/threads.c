@@ -1,4 +1,4 @@
-/* Threads, started and waited for. */
+/* Starts threads and waits for them. */
 #include "render/threads.h"
 
 #include <signal.h>
@@ -13,7 +13,7 @@ static void *run(void *argument)
   return NULL;
 }
 
-/* What a thread has at least, whatever `ulimit -s` says: more than twice what a hard ray takes, as of
+/* Each thread's least stack, whatever `ulimit -s` says: more than twice the need of a hard ray as in
  * intersect/exact/exact.h. */
 enum { LEAST_STACK = 4 << 20 };
 

@@ -1,4 +1,4 @@
-/* Tiles: packets of rays, their colours, and the values that are kept of them. */
+/* Tiles: packets of rays, their colours, and the values stored for them. */
 #include "render/tile.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ struct pixel {
   size_t hits;    /* samples that hit */
   struct hit hit; /* of the middle sample, with its distance */
   double distance;
-  struct explained_numbers solver; /* where they are asked for */
+  struct explained_numbers solver; /* if needed */
   double deviation;
 };
 
@@ -23,7 +23,7 @@ static bool inside(const struct rectangle *r, size_t x, size_t y)
   return x >= r->x && x - r->x < r->width && y >= r->y && y - r->y < r->height;
 }
 
-/* The pixels of the packet at (x0, y0) that are to be rendered. */
+/* The pixels of the packet at (x0, y0) that are rendered. */
 static size_t gather(const struct tile_job *job, const struct rectangle *kept, size_t x0, size_t y0,
                      struct pixel out[PACKET_SIZE])
 {
@@ -31,7 +31,7 @@ static size_t gather(const struct tile_job *job, const struct rectangle *kept, s
   for (size_t k = 0; k < PACKET_SIZE; k++) {
     const size_t x = x0 + k % PACKET_WIDTH, y = y0 + k / PACKET_WIDTH;
     if (!(x < job->width && y < job->height && (job->every_pixel || inside(kept, x, y)))) continue;
-    /* Of the rest, a hundred bytes, only what is asked for is written. */
+    /* Of the rest, a hundred bytes, only what is needed is written. */
     struct pixel *pixel = &out[count++];
     pixel->x = x, pixel->y = y, pixel->hits = 0, pixel->hit.patch = HIT_NONE;
     pixel->rgb[0] = pixel->rgb[1] = pixel->rgb[2] = 0;
@@ -39,7 +39,7 @@ static size_t gather(const struct tile_job *job, const struct rectangle *kept, s
   return count;
 }
 
-/* How far the hits are from the certified ones. */
+/* Sets the pixels' deviations from the certified hits. */
 static void deviations(struct tracer *certified, size_t count, const struct ray rays[], const struct hit hits[],
                        struct pixel pixels[])
 {
@@ -57,7 +57,7 @@ static void sample(const struct tile_job *job, struct tracer *tracer, struct tra
                    size_t count, struct pixel pixels[])
 {
   const double n = (double)job->samples;
-  const bool plain = channel_list_is_rgb(&job->channels); /* asks for no sample's hit */
+  const bool plain = channel_list_is_rgb(&job->channels); /* needs no sample's hit */
   const bool middle = !plain && i == job->samples / 2 && j == job->samples / 2;
   struct ray rays[PACKET_SIZE];
   struct hit hits[PACKET_SIZE];
@@ -89,7 +89,7 @@ static double status_value(const struct hit *hit)
   return certain ? CHANNEL_HIT_CERTAIN : CHANNEL_HIT_GRAZING;
 }
 
-/* The values of one channel; `samples` is how many rays the pixel has. */
+/* The values of one channel; `samples` is the pixel's number of rays. */
 static void channel_values(enum channel_kind kind, const struct pixel *pixel, double samples, double out[3])
 {
   const struct hit *hit = &pixel->hit;

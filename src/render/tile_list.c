@@ -1,17 +1,17 @@
-/* Tiles in Hilbert's order. */
+/* Tiles in the order of Hilbert's curve. */
 #include "render/tile_list.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 
-/* A tile while they are sorted. */
+/* A tile during sorting. */
 struct place {
-  uint64_t way; /* along the curve */
+  uint64_t way; /* distance along the curve */
   size_t column, row;
 };
 
-/* How far along the curve through a square of 2^32 tiles a side. Each step of the loop asks in which quarter of the
- * square the tile lies and turns that quarter so that its curve runs as the whole one does. */
+/* The distance along the curve through a square of 2^32 tiles a side. Each step finds the quarter of the square that
+ * contains the tile, and turns that quarter so that its curve runs as the whole one does. */
 static uint64_t hilbert(uint32_t x, uint32_t y)
 {
   uint64_t way = 0;
@@ -35,14 +35,14 @@ static int compare(const void *a, const void *b)
 
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
-/* The pixels from `begin` on, `length` of them, of the tile of that number in a row or column. */
+/* The pixels of tile number `tile` in a row or column, within the `length` pixels from `begin` on. */
 static void cut(size_t begin, size_t length, size_t tile, size_t *out_begin, size_t *out_length)
 {
   *out_begin = tile * TILE_SIZE > begin ? tile * TILE_SIZE : begin;
   *out_length = least((tile + 1) * TILE_SIZE, begin + length) - *out_begin;
 }
 
-/* All tiles that meet the crop, in order; NULL where memory is short. */
+/* All tiles that meet the crop, in order; NULL if memory is short. */
 static struct place *all_places(const struct rectangle *crop, size_t *out_count)
 {
   const size_t x = crop->x / TILE_SIZE, y = crop->y / TILE_SIZE;

@@ -1,8 +1,8 @@
 /* The tiles of a picture, or every N-th of them, in an order that keeps neighbours together.
  *
- * The order runs along D. Hilbert's curve ("Über die stetige Abbildung einer Linie auf ein Flächenstück", Math. Ann.
- * 38, 1891), so that any N tiles in a row are a small spot of the picture, and of each such spot each of N pieces gets
- * one: what is dear to render is shared out evenly, whatever N is.
+ * The order follows D. Hilbert's curve ("Über die stetige Abbildung einer Linie auf ein Flächenstück", Math. Ann. 38,
+ * 1891). Any N consecutive tiles are therefore a small spot of the picture, and each of N pieces gets one tile of each
+ * such spot. Expensive regions are thus shared out evenly, whatever N is.
  */
 #ifndef PSCN_RENDER_TILE_LIST_H
 #define PSCN_RENDER_TILE_LIST_H
@@ -16,17 +16,17 @@
 
 struct tile_list {
   size_t count;
-  struct rectangle *tile; /* the pixels of the crop in each, never none */
-  atomic_bool *done; /* whether they are in the picture: set by the threads of a rendering, after their last pixel */
+  struct rectangle *tile; /* the crop's pixels in each tile; never empty */
+  atomic_bool *done;      /* whether each is in the picture; set by rendering threads after its last pixel */
 };
 
-/* Piece `piece` (from 1) of `pieces` of the crop; {1, 1} is all of it. The caller destroys the list. STATUS_LIMIT where
- * memory is short; then *out is zero. */
+/* Piece `piece` (from 1) of `pieces` of the crop; {1, 1} is all of it. The caller destroys the list. Returns
+ * STATUS_LIMIT if memory is short; then *out is zero. */
 enum status tile_list_create(const struct rectangle *crop, size_t piece, size_t pieces,
                              struct tile_list *out) STATUS_MUST_CHECK;
 void tile_list_destroy(struct tile_list *list); /* and zeroes it */
 
-/* How many pixels, of all tiles or of those that are done. */
+/* The number of pixels, in all tiles or in those that are done. */
 size_t tile_list_pixels(const struct tile_list *list, bool done_only);
 
 #endif
