@@ -16,7 +16,7 @@ void compare_images(const struct compare_pair *pair, struct compare_result *out,
   *out = (struct compare_result){.pixels = first->width * first->height};
   double sum = 0, square_sum = 0, peak = 1;
   for (size_t y = 0; y < first->height; y++) {
-    double row_sum = 0, row_square_sum = 0; /* a sum a row keeps the rounding small on large pictures */
+    double row_sum = 0, row_square_sum = 0; /* a sum per row keeps rounding errors small on large pictures */
     for (size_t x = 0; x < first->width; x++) {
       const float *a = image_pixel(first, x, y), *b = image_pixel(second, x, y);
       for (size_t k = 0; k < pair->channel_count; k++) {

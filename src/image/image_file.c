@@ -1,4 +1,4 @@
-/* Pictures to and from files: what the formats can hold, and the loading of the module that does the work. */
+/* Reads and writes picture files: the limits of the formats, and the loading of the module that does the work. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
 #include "image/image_file.h"
 
@@ -27,7 +27,7 @@ static const struct format_traits FORMATS[] = {
 
 enum { FORMAT_COUNT = sizeof FORMATS / sizeof FORMATS[0] };
 
-/* Of ASCII letters only, in any locale. */
+/* Converts ASCII letters only, in any locale. */
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
 static bool has_suffix(const char *path, const char *suffix)
@@ -64,7 +64,7 @@ static void *wait_at(void *gate)
   return NULL;
 }
 
-/* Whether so many threads can be there at once. */
+/* Whether `count` threads can exist at once. */
 static bool room_for_threads(size_t count)
 {
   pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
@@ -86,10 +86,9 @@ static bool room_for_bytes(size_t size, int protection)
   return room != MAP_FAILED;
 }
 
-/* Where address space, memory or threads run out while they start, OpenImageIO and the libraries it brings along end
- * the process instead of saying so. So room is asked for first, that what they need is there: the libraries, their
- * data, four threads of a library's and one of OpenImageIO's for each processor, beside as many of ours, with a stack
- * and a heap each. */
+/* If address space, memory or threads run out while they start, OpenImageIO and its libraries end the process without a
+ * message. So we first test for the room they need: for the libraries, their data, four threads of a library's and one
+ * of OpenImageIO's for each processor, besides as many of ours, each with a stack and a heap. */
 static bool room_for_module(void)
 {
   const size_t libraries = (size_t)384 << 20, data = (size_t)160 << 20, heap = (size_t)80 << 20;
@@ -99,16 +98,16 @@ static bool room_for_module(void)
          room_for_threads(4 + 2 * processors);
 }
 
-/* Most of OpenImageIO's loading is looking for names of symbols in all libraries, one after the other. A library that
- * is opened before it looks in those that it needs itself only: these bring the most names along, and half of the time
- * is gone. The build knows what they are called (CMakeLists.txt); one that is not there costs nothing. */
+/* Most of OpenImageIO's loading time goes into looking up symbols in all libraries, one after another. A library that
+ * is opened before it looks only in those that it needs itself. The ones opened here have the most symbols, and this
+ * halves the time. The build knows their names (CMakeLists.txt); a missing one costs nothing. */
 static void load_first(int flags)
 {
   static const char *const first[] = {IMAGE_MODULE_FIRST NULL};
   for (size_t k = 0; first[k] != NULL; k++) (void)dlopen(first[k], flags);
 }
 
-/* The module stays loaded; asking again is cheap, so nothing needs to be remembered. Writes the message on failure. */
+/* The module stays loaded, and asking again is cheap, so nothing is remembered. Writes the message on failure. */
 static enum status load_module(const struct image_module **out, char *message)
 {
   const int flags = RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE;
@@ -153,8 +152,8 @@ enum status image_encode(const struct image *image, const struct image_encoding 
   return status == STATUS_OK ? module->encode(image, encoding, out_bytes, out_size, message) : status;
 }
 
-/* How files of the formats that are read begin. OpenImageIO would offer a file to every reader it has, some of which
- * believe whatever it says. */
+/* The first bytes of the formats that are read. OpenImageIO would try all its readers on a file, and some of them trust
+ * any content. */
 static const struct {
   const char *begin;
   size_t length;
@@ -165,14 +164,14 @@ static const struct {
             {"MM\0*", 4, "tiff"},
             {"\xff\xd8\xff", 3, "jpeg"}};
 
-/* OpenImageIO's name of the file's format; NULL where it has none of these. Closes the file. */
+/* OpenImageIO's name of the file's format, or NULL if it is none of these. Closes the file. */
 static const char *format_of_content(int file)
 {
   char begin[8] = {0};
   ssize_t got;
   do got = read(file, begin, sizeof begin);
   while (got < 0 && errno == EINTR);
-  (void)close(file); /* OpenImageIO opens files itself */
+  (void)close(file); /* OpenImageIO opens the file itself */
   for (size_t k = 0; got == (ssize_t)sizeof begin && k < sizeof READ / sizeof READ[0]; k++)
     if (memcmp(begin, READ[k].begin, READ[k].length) == 0) return READ[k].format;
   return NULL;

@@ -1,4 +1,4 @@
-/* A thread that loads OpenImageIO. */
+/* Loads OpenImageIO on another thread. */
 #include "image/image_loading.h"
 
 #include <sys/resource.h>
@@ -15,7 +15,7 @@ static void *load_beside(void *argument)
   return NULL;
 }
 
-/* Where memory is limited the room for the module may be gone before it is taken, so it is taken at once. */
+/* If memory is limited, other work could take the module's room before it loads, so it is loaded at once. */
 static bool is_limited(int resource)
 {
   struct rlimit limit;
@@ -36,7 +36,7 @@ double image_loading_seconds(const struct image_loading *loading)
   clockid_t clock;
   struct timespec now;
   const bool runs = loading->running && pthread_getcpuclockid(loading->thread, &clock) == 0 &&
-                    clock_gettime(clock, &now) == 0; /* else it has ended */
+                    clock_gettime(clock, &now) == 0; /* otherwise it has ended */
   const double all = atomic_load(&loading->seconds);
   return all > 0 || !runs ? all : clock_value(now);
 }

@@ -1,5 +1,4 @@
-/* OpenImageIO loaded beside other work, which need not wait for it: that takes longer than a small picture to
- * render. */
+/* Loads OpenImageIO in parallel with other work, because that takes longer than rendering a small picture. */
 #ifndef PSCN_IMAGE_IMAGE_LOADING_H
 #define PSCN_IMAGE_IMAGE_LOADING_H
 
@@ -10,21 +9,21 @@
 
 struct image_loading {
   pthread_t thread;
-  bool running;           /* image_loading_end has not waited for it yet */
-  atomic_int failed;      /* turns nonzero, at any time, where it can not be loaded */
-  _Atomic double seconds; /* CPU time of all of it, when it is done */
+  bool running;           /* image_loading_end has not yet waited for it */
+  atomic_int failed;      /* turns nonzero, at any time, if loading fails */
+  _Atomic double seconds; /* CPU time of loading, once it is done */
   enum status status;
   char message[IMAGE_MESSAGE_SIZE];
 };
 
-/* Starts it. `loading` stays where it is until image_loading_end, which must follow. */
+/* Starts loading. `loading` must stay in place until image_loading_end, which must follow. */
 void image_loading_begin(struct image_loading *loading);
 
-/* CPU seconds that it has taken until now: they are in the process's, but not of the other work. Between image_loading_begin and the
- * end of what follows; by one thread. */
+/* CPU seconds that loading has taken so far. They are in the process's time, but not in the other work's. To be called
+ * after image_loading_begin, also after image_loading_end, by one thread. */
 double image_loading_seconds(const struct image_loading *loading);
 
-/* Waits for the end of it, and answers as image_file_ready; the message is the loading's own. */
+/* Waits until loading ends, and returns what image_file_ready does. `loading` owns the message. */
 enum status image_loading_end(struct image_loading *loading, const char **out_message) STATUS_MUST_CHECK;
 
 #endif

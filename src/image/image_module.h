@@ -1,9 +1,9 @@
-/* The face of the module that reads and writes picture files.
+/* The interface of the module that reads and writes picture files.
  *
- * OpenImageIO brings some 250 shared libraries along, which cost every start of a program an eighth of a second and 130
- * MB. So the code that uses it is a module of its own, IMAGE_MODULE_FILE, loaded when the first picture file is met; it
- * exports one object, `image_module`. The functions are those of image_file.h after the arguments have been checked;
- * `format` is OpenImageIO's name of the file's.
+ * OpenImageIO brings along some 250 shared libraries, which would cost every start of a program an eighth of a second
+ * and 130 MB. The code that uses it is therefore a module of its own, IMAGE_MODULE_FILE, loaded for the first picture
+ * file. It exports one object, `image_module`. The functions are those of image_file.h after the arguments have been
+ * checked; `format` is OpenImageIO's name of the file's format.
  */
 #ifndef PSCN_IMAGE_IMAGE_MODULE_H
 #define PSCN_IMAGE_IMAGE_MODULE_H
@@ -14,8 +14,8 @@
 #define IMAGE_MODULE_SYMBOL "image_module"
 
 struct image_module {
-  size_t image_size, encoding_size;    /* of what it is handed: a module that has others is of another build */
-  enum status (*begin)(char *message); /* starts what threads it takes: later there may be none to be had */
+  size_t image_size, encoding_size;    /* of the structures passed: a module with others is of another build */
+  enum status (*begin)(char *message); /* starts the threads it needs, which may not be available later */
   enum status (*encode)(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
                         size_t *out_size, char *message);
   /* `wanted` NULL: all pixels. */

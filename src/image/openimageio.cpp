@@ -1,4 +1,5 @@
-/* The module that image_file.c loads: OpenImageIO behind a C face, the only C++ of pscn. No exception leaves it. */
+/* The module that image_file.c loads: OpenImageIO behind a C interface, the only C++ of pscn. No exception leaves
+ * it. */
 extern "C" {
 #include "image/image_module.h"
 #include "image/srgb.h"
@@ -58,7 +59,7 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
     mixed = mixed || spec.channelformats[c] != spec.format;
   }
   if (!mixed) spec.channelformats.clear();
-  /* A fourth channel would be taken for opacity, by which PNG's others are to be divided. */
+  /* OpenImageIO would take a fourth channel for opacity, and divide a PNG's others by it. */
   if (encoding.format == IMAGE_PNG) spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", encoding.format == IMAGE_PNG ? "sRGB" : "Linear");
   for (std::size_t k = 0; k < encoding.attribute_count; k++)
@@ -102,12 +103,12 @@ Bytes native_rows(const image &picture, const image_encoding &encoding, const sr
   return bytes;
 }
 
-/* Writes all rows, some at a time: what they are turned into takes little memory, and whoever waits can be told how far it is,
- * and end it: STATUS_INTERRUPTED. */
+/* Writes all rows, some at a time, so that their converted values take little memory, and the caller can follow and
+ * stop it: STATUS_INTERRUPTED. */
 status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
                   const image_encoding &encoding)
 {
-  /* Whole blocks of every way to pack an EXR, or one row of tiles. */
+  /* Whole blocks of every EXR compression, or one row of tiles. */
   const std::size_t most = encoding.tile == 0 ? 64 : static_cast<std::size_t>(encoding.tile);
   const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeDesc();
   srgb_table table;
@@ -125,17 +126,17 @@ status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
   return STATUS_OK;
 }
 
-/* Encodes into `file`; an empty string or what went wrong, and of which kind that is. */
+/* Encodes into `file`. Returns an empty string, or the error, whose status is in `result`. */
 std::string encode(const image &picture, const image_encoding &encoding, Bytes &file, status &result)
 {
   result = STATUS_FILE;
   OIIO::ImageSpec spec = make_spec(picture, encoding);
-  OIIO::Filesystem::IOVecOutput proxy(file); /* outlives the output, which still writes into it when it goes */
+  OIIO::Filesystem::IOVecOutput proxy(file); /* outlives the output, whose destructor still writes into it */
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(SUFFIXES[encoding.format] + 1);
   if (!output) return "OpenImageIO: " + OIIO::geterror();
   if (!output->supports("ioproxy")) return "this OpenImageIO can not write the format to memory";
   if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
-  /* The name decides nothing but the format: the proxy takes the bytes. */
+  /* The name only selects the format; the bytes go to the proxy. */
   if (output->open(std::string("memory") + SUFFIXES[encoding.format], spec))
     result = write_rows(*output, spec, picture, encoding);
   if (result == STATUS_INTERRUPTED) return "interrupted";
@@ -145,7 +146,7 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   return file.empty() ? "OpenImageIO wrote nothing" : "";
 }
 
-/* Where it stands in its picture; what lies outside is taken for a whole. */
+/* Reads the picture's place in a larger one. A picture that is not inside of one counts as a whole. */
 void read_window(const OIIO::ImageSpec &spec, image &out)
 {
   const long long x = static_cast<long long>(spec.x) - spec.full_x, y = static_cast<long long>(spec.y) - spec.full_y;
@@ -169,22 +170,22 @@ void read_metadata(const OIIO::ImageSpec &spec, image &out)
   if (out.metadata == nullptr) throw std::bad_alloc();
 }
 
-/* What is read of a file is what it has, and all of it: an empty string, or what is not so. */
+/* Checks that what is read will be all that the file has. Returns an empty string, or the objection. */
 std::string besides(OIIO::ImageInput &input, const OIIO::ImageSpec &spec)
 {
   for (const std::string &name : spec.channelnames)
     if (name.size() >= IMAGE_NAME_SIZE)
       return "a channel has a name of more than " + std::to_string(IMAGE_NAME_SIZE - 1) + " bytes";
-  /* Pixels may share a value of colour there, and a row then has fewer bytes, as stored, than OpenImageIO takes for
-   * pixels: what else is in memory would be read. */
+  /* In YCbCr, pixels may share a value of colour, and a row then has fewer bytes, as stored, than OpenImageIO takes for
+   * pixels: it would read beyond them in memory. */
   if (spec.get_string_attribute("tiff:ColorSpace") == "YCbCr") return "its colours are YCbCr, not red, green and blue";
   if (input.seek_subimage(1, 0)) return "it has several pictures";
-  (void)input.geterror(); /* that there is no other one */
+  (void)input.geterror(); /* discards the error that there is no other picture */
   return input.seek_subimage(0, 0) ? "" : input.geterror();
 }
 
-/* All pixels. A TIFF's row by row or tile by tile: where OpenImageIO takes many rows or tiles together it unpacks them by
- * itself, and of what cannot be unpacked it says nothing: what else is in memory would be read. */
+/* Reads all pixels. A TIFF is read row by row or tile by tile: if OpenImageIO takes many rows or tiles at once, it
+ * unpacks them itself, and does not report those that it cannot unpack: other contents of memory would be read. */
 bool read_pixels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, image &out)
 {
   OIIO::attribute("tiff:multithread", 0);
@@ -197,7 +198,7 @@ bool read_pixels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, image &ou
   return true;
 }
 
-/* The whole tiles that hold an area, as an area of the rows that `out` has. */
+/* The whole tiles that contain an area, relative to the first pixel of `out`. */
 rectangle tiles_of(const OIIO::ImageSpec &spec, const image &out, const rectangle &area)
 {
   const auto width = static_cast<std::size_t>(spec.tile_width), height = static_cast<std::size_t>(spec.tile_height);
@@ -207,7 +208,7 @@ rectangle tiles_of(const OIIO::ImageSpec &spec, const image &out, const rectangl
   return {x, y, std::min(right, out.width) - x, std::min(below, out.height) - y};
 }
 
-/* The pixels of an area, by way of those of its tiles. */
+/* Reads the pixels of an area, through whole tiles. */
 bool read_area(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, const rectangle &area, std::vector<float> &room,
                image &out)
 {
@@ -225,12 +226,12 @@ bool read_area(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, const recta
   return true;
 }
 
-/* The areas, where their tiles have fewer pixels than the picture; else all of it. */
+/* Reads only the areas if their tiles have fewer pixels than the picture, otherwise all of it. */
 bool read_areas(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, const rectangle *area, std::size_t count,
                 image &out)
 {
   if (spec.tile_width <= 0 || spec.tile_height <= 0) return read_pixels(input, spec, out);
-  std::size_t left = out.width * out.height; /* out of this, so that no sum is too large */
+  std::size_t left = out.width * out.height; /* counted down, so that no sum overflows */
   for (std::size_t k = 0; k < count; k++) {
     const rectangle tiles = tiles_of(spec, out, area[k]);
     left -= std::min(left, tiles.width * tiles.height);
@@ -247,7 +248,7 @@ std::string read(const char *path, const char *format, const image_wanted *wante
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) return "OpenImageIO: " + OIIO::geterror();
-  OIIO::ImageSpec spec, as_stored; /* not multiplied by opacity, nor made red, green and blue of other colours */
+  OIIO::ImageSpec spec, as_stored; /* neither multiplied by opacity nor converted to red, green and blue */
   as_stored.attribute("oiio:UnassociatedAlpha", 1);
   as_stored.attribute("oiio:RawColor", 1);
   if (!input->open(path, spec, as_stored)) return input->geterror();
@@ -270,14 +271,15 @@ std::string read(const char *path, const char *format, const image_wanted *wante
   if (result != STATUS_OK || (wanted != nullptr && areas == 0)) return "";
   result = image_add_pixels(&out);
   if (result != STATUS_OK) return too_large;
-  /* Rows of a TIFF or JPEG that is cut off or damaged are made up, and that is said, but not by what is returned. */
+  /* Rows of a TIFF or JPEG that is cut off or damaged are made up. geterror() tells that, the returned value does
+   * not. */
   const bool done = wanted == nullptr ? read_pixels(*input, spec, out) : read_areas(*input, spec, area, areas, out);
   const std::string problem = input->geterror();
   if (!done || !problem.empty()) result = STATUS_FILE;
   return problem;
 }
 
-/* Runs work() -> status, which may throw, and turns what it throws into a status and a message. */
+/* Runs work() -> status, which may throw, and converts exceptions to a status and a message. */
 template <typename Work> status guarded(char *message, Work work)
 {
   try {
@@ -285,7 +287,7 @@ template <typename Work> status guarded(char *message, Work work)
   } catch (const std::bad_alloc &) {
     say(message, "out of memory");
     return STATUS_LIMIT;
-  } catch (const std::system_error &problem) { /* no room for a thread of OpenEXR's or OpenImageIO's */
+  } catch (const std::system_error &problem) { /* no room for a thread of OpenEXR or OpenImageIO */
     const bool limit = problem.code() == std::errc::resource_unavailable_try_again ||
                        problem.code() == std::errc::not_enough_memory;
     say(message, limit ? "out of memory or threads" : problem.what());
@@ -329,8 +331,8 @@ status module_read(const char *path, const char *format, const image_wanted *wan
   return result;
 }
 
-/* OpenEXR's threads are started by who writes or reads its files first, and OpenImageIO passes over it in silence where
- * there are none: no writer then. That is not to be found out when a picture is done. */
+/* The first user of an EXR writer or reader starts OpenEXR's threads. If they cannot be started, OpenImageIO silently
+ * gives no writer. That must not be found out only when a picture is done. */
 status module_begin(char *message)
 {
   return guarded(

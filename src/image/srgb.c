@@ -28,7 +28,7 @@ double srgb_decode(double encoded)
 void srgb_table_fill(struct srgb_table *out)
 {
   for (int k = 1; k <= 255; k++) {
-    /* The least float whose encoding rounds to k: start at the decoded midpoint, then step past its rounding. */
+    /* The least float whose encoding rounds to k: starts at the decoded midpoint, and steps past its rounding. */
     float bound = (float)srgb_decode((k - 0.5) / 255);
     while (srgb_encode((double)bound) * 255 >= k - 0.5) bound = nextafterf(bound, 0.0f);
     while (srgb_encode((double)bound) * 255 < k - 0.5) bound = nextafterf(bound, 1.0f);
@@ -38,7 +38,7 @@ void srgb_table_fill(struct srgb_table *out)
 
 uint8_t srgb_encode8(const struct srgb_table *table, float linear)
 {
-  /* The number of bounds not above the value: a binary search over 255 = 2^8 - 1 of them. */
+  /* The number of bounds that are not above the value: a binary search over 255 = 2^8 - 1 bounds. */
   unsigned code = 0;
   for (unsigned step = 128; step != 0; step /= 2)
     if (linear >= table->bound[code + step - 1]) code += step;

@@ -7,11 +7,11 @@
 
 #include <stdint.h>
 
-/* Linear [0,1] to encoded [0,1], and back. */
+/* Linear [0,1] to encoded [0,1], and the inverse. */
 double srgb_encode(double linear);
 double srgb_decode(double encoded);
 
-/* The lower bounds of linear light of the 8-bit codes 1 to 255: code k starts at bound[k - 1]. */
+/* The least linear values of the 8-bit codes 1 to 255: code k starts at bound[k - 1]. */
 struct srgb_table {
   float bound[255];
 };
@@ -21,7 +21,7 @@ void srgb_table_fill(struct srgb_table *out);
 uint8_t srgb_encode8(const struct srgb_table *table, float linear);
 uint16_t srgb_encode16(float linear);
 
-/* A value that is encoded already, to the nearest code. */
+/* The nearest code of an encoded value. */
 uint8_t srgb_code8(float encoded);
 uint16_t srgb_code16(float encoded);
 
