@@ -68,6 +68,24 @@ static void make_ray(struct random *random, struct subject *s, const double at[2
   p->t_min[lane] = 0, p->t_max[lane] = INFINITY;
 }
 
+/* How far the lane's proven root, which was aimed at `at`, is off at most, as a part of its radii, where the points are off by
+ * `error`. */
+static double farthest(const struct subject *s, const struct newton_root *root, unsigned lane, const double at[2],
+                       double error)
+{
+  double most = 0;
+  for (int signs = 0; signs < 8; signs++) {
+    const double off[3] = {signs & 1 ? error : -error, signs & 2 ? error : -error, signs & 4 ? error : -error};
+    struct quad_net truth[2];
+    quad u = root->u[lane], v = root->v[lane];
+    truth_make(s, lane, at, off, truth);
+    assert_true(quad_root(truth, &u, &v));
+    most = fmax(most, fmax((double)quad_abs(u - root->u[lane]) / root->radius_u[lane],
+                           (double)quad_abs(v - root->v[lane]) / root->radius_v[lane]));
+  }
+  return most;
+}
+
 static void a_proven_root_is_within_its_radii(void **state)
 {
   (void)state;
@@ -92,21 +110,11 @@ static void a_proven_root_is_within_its_radii(void **state)
       newton_solve(p, &s.leaf, axis, start, p->on_axis[axis], &root);
       for (unsigned bits = lanes_bits(root.at.exists & p->on_axis[axis]); bits; bits &= bits - 1) {
         const unsigned lane = (unsigned)__builtin_ctz(bits);
-        const double found[2] = {root.at.u[lane], root.at.v[lane]};
-        const double radius[2] = {root.at.radius_u[lane], root.at.radius_v[lane]};
-        const bool both = (found[0] < 0 || found[0] > 1) && (found[1] < 0 || found[1] > 1);
+        const bool both = (root.at.u[lane] < 0 || root.at.u[lane] > 1) && (root.at.v[lane] < 0 || root.at.v[lane] > 1);
+        const double part = farthest(&s, &root.at, lane, at[lane], error);
         proven++, beside += both;
-        for (int signs = 0; signs < 8; signs++) {
-          const double off[3] = {signs & 1 ? error : -error, signs & 2 ? error : -error, signs & 4 ? error : -error};
-          struct quad_net truth[2];
-          truth_make(&s, lane, at[lane], off, truth);
-          quad u = found[0], v = found[1];
-          assert_true(quad_root(truth, &u, &v));
-          const double part = fmax((double)quad_abs(u - found[0]) / radius[0],
-                                   (double)quad_abs(v - found[1]) / radius[1]);
-          if (both) most_beside = fmax(most_beside, part);
-          else most = fmax(most, part);
-        }
+        if (both) most_beside = fmax(most_beside, part);
+        else most = fmax(most, part);
       }
     }
   }
@@ -117,9 +125,68 @@ static void a_proven_root_is_within_its_radii(void **state)
   assert_true(most > 0.25); /* not vacuous */
 }
 
+/* A patch that is one leaf, a bent fan from the pole at its border u = 0. */
+static void make_fan(struct random *random, struct subject *s)
+{
+  double along[2][3];
+  const double bend = pow(2, -random_between(random, 3, 20));
+  method_default(solver_at(0), &s->method);
+  s->patch = (struct model_patch){
+    .scale = 1, .cut = {.m = 3, .n = 3, .split = {1, 1}}, .method = &s->method, .pole = {true}};
+  s->patch.rest = (const double(*)[4][4])s->rest;
+  for (int k = 0; k < 3; k++) {
+    for (int side = 0; side < 2; side++) along[side][k] = random_between(random, -0.4, 0.4);
+    for (int n = 0; n < 16; n++)
+      s->patch.x[k][n / 4][n % 4] = n / 4 / 3.0 * (along[0][k] + along[1][k] * (n % 4 / 1.5 - 1)) +
+                                    (n < 4 ? 0 : bend * random_between(random, -0.1, 0.1));
+  }
+  leaves_make(&s->patch, 0, 0, 1, &s->leaf);
+}
+
+/* However near the pole a root is, it is proven where what the points are off by is far less than its distance. */
+static void next_to_a_pole_too(void **state)
+{
+  (void)state;
+  enum { NEAREST = 40 };
+  struct random random = {SEED + 1};
+  unsigned tried = 0, proven = 0, alone = 0;
+  double most = 0;
+  for (int n = 0; n < CASES; n++) {
+    struct subject s = {.patch = {.scale = 0}};
+    struct packet *p = &s.packet;
+    double at[LANES][2];
+    lanes start[2];
+    const double away = random_between(&random, 1, NEAREST),
+                 error = pow(2, -away - random_between(&random, 10, 50 - away));
+    make_fan(&random, &s);
+    assert_int_equal(s.leaf.pole, 1);
+    for (unsigned lane = 0; lane < LANES; lane++) {
+      at[lane][0] = pow(2, -away), at[lane][1] = random_between(&random, 0, 1);
+      make_ray(&random, &s, at[lane], lane);
+      start[0][lane] = at[lane][0] * random_between(&random, 0.9, 1.1) - 0.5, start[1][lane] = at[lane][1] - 0.45;
+    }
+    subject_look(&s, error);
+    for (unsigned axes = p->axes; axes; axes &= axes - 1) {
+      const int axis = __builtin_ctz(axes);
+      struct leaf_root root;
+      newton_solve(p, &s.leaf, axis, start, p->on_axis[axis], &root);
+      tried += lanes_count(p->on_axis[axis]), proven += lanes_count(root.at.exists & p->on_axis[axis]);
+      alone += lanes_count(root.at.alone & p->on_axis[axis]);
+      for (unsigned bits = lanes_bits(root.at.exists & p->on_axis[axis]); bits; bits &= bits - 1) {
+        const unsigned lane = (unsigned)__builtin_ctz(bits);
+        most = fmax(most, farthest(&s, &root.at, lane, at[lane], error));
+      }
+    }
+  }
+  print_message("at poles %u proven of %u, %u alone; off by %.3g of the radius\n", proven, tried, alone, most);
+  assert_true(proven > tried / 2 && alone > tried / 4);
+  assert_true(most <= 1 && most > 0.25);
+}
+
 __attribute__((noinline)) static int run(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_proven_root_is_within_its_radii)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_proven_root_is_within_its_radii),
+                                     cmocka_unit_test(next_to_a_pole_too)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
