@@ -172,7 +172,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
     struct patch_room room;
     const struct model_patch *patch = model_patch_at(model, root->patch, &room);
     zoom_start(patch, P, ray, &zoom);
-    (void)zoom_sharpen(&zoom, root); /* or its bounds are unchanged */
+    (void)zoom_sharpen(&zoom, root); /* or its bounds hold as before */
   }
   if (root->t_error > UNIT_ROUNDOFF / 4 * fabs((double)root->t)) {
     const wide t = wide_t(P, ray, root->u, root->v);

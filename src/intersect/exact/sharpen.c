@@ -111,6 +111,15 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide
  * worse than this, their order is called grazing; otherwise they are at one place. */
 #define TIE_ERRORS 256
 
+/* Moves the root to a place that is better, but not proven: its bounds have to hold from there. */
+static void move_root(struct zoom *zoom, wide u, wide v, struct exact_root *root)
+{
+  const wide t = zoom_t(zoom, u, v);
+  root->radius_u += (double)wide_abs(u - root->u), root->radius_v += (double)wide_abs(v - root->v);
+  root->t_error += (double)wide_abs(t - root->t);
+  root->u = u, root->v = v, root->t = t;
+}
+
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
 {
   fixed x = fixed_from_wide(2 * root->u - 1), y = fixed_from_wide(2 * root->v - 1);
@@ -121,8 +130,7 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   const double bends[2] = {row_bend(zoom, m[0]), row_bend(zoom, m[1])}, bend = fmax(bends[0], bends[1]);
   const wide u = (1 + fixed_wide(x)) / 2, v = (1 + fixed_wide(y)) / 2;
   if (!certificate_holds(bend, step, size)) {
-    if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v)
-      root->u = u, root->v = v, root->t = zoom_t(zoom, u, v);
+    if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v) move_root(zoom, u, v, root);
     return false;
   }
   for (int k = 0; k < 2; k++)

@@ -96,8 +96,8 @@ wide zoom_t(struct zoom *zoom, wide u, wide v);
 double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2], double row[2][2], double out[2][3]);
 
 /* Refines a proven root of this ray and patch as far as wide arithmetic allows. Returns false if the certificate does
- * not hold there, or what is found is not the same root; then the root's place may be better, but its bounds are
- * unchanged. */
+ * not hold there, or what is found is not the same root; then the root may be at a better place, with bounds that are
+ * wider by as much as it moved. */
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root);
 
 #endif
