@@ -19,7 +19,7 @@
 struct message {
   struct message *next;
   struct pscn_message is;
-  const char *shown; /* all lines of it, each with its end */
+  const char *shown; /* all of its lines, each with its newline */
 };
 
 struct pscn_scene {
@@ -29,19 +29,19 @@ struct pscn_scene {
   struct arena *arena; /* of the messages */
   struct message *messages, **messages_end;
   size_t message_count;
-  char *text;           /* what all messages show, or NULL where there was no memory for that */
-  struct message spare; /* stands for those that there was no memory for */
+  char *text;           /* all messages together, or NULL if there was no memory for that */
+  struct message spare; /* stands for messages that there was no memory for */
   struct scene *scene;
-  struct intersector *intersector; /* NULL where the scene was not built */
+  struct intersector *intersector; /* NULL if the scene was not built */
 };
 
-/* Arithmetic as ours counts on: rounding to nearest, no flush to zero, no traps. Between calm_begin and calm_end.
- * Where it is so already, which x86-64 says in two registers, for the x87 has traps of its own, no more is done than is
- * worth it for a single ray. */
+/* Between calm_begin and calm_end, arithmetic is as our code requires: rounding to nearest, no flush to zero, no traps.
+ * On x86-64 two registers say whether it is so already (the x87 has traps of its own); then only what is cheap enough
+ * for a single ray is done. */
 struct calm {
   fenv_t callers;
-  unsigned control; /* the register of SSE */
-  unsigned x87;     /* flags of the x87, where libgcc tells what __float128 over- and underflows */
+  unsigned control; /* MXCSR, the register of SSE */
+  unsigned x87;     /* flags of the x87, where libgcc reports over- and underflow of __float128 */
   bool plain;
 };
 
@@ -81,7 +81,7 @@ static inline void calm_end(const struct calm *calm)
 #if defined(__SSE2__)
   if (calm->plain) {
     const unsigned raised = x87_flags() & ~calm->x87;
-    if (raised) (void)feclearexcept((int)raised); /* of both units */
+    if (raised) (void)feclearexcept((int)raised); /* clears both units */
     if (_mm_getcsr() != calm->control) _mm_setcsr(calm->control);
     return;
   }

@@ -6,7 +6,7 @@
 #include "intersect/tracer.h"
 #include "library/library.h"
 
-/* One call: who answers, and where rays and answers stand. `failed`: some ray was wrong. */
+/* One call: the tracer, and where rays and answers are stored. `failed`: some ray was invalid. */
 struct call {
   struct tracer *tracer;
   const struct scene *scene;
@@ -19,7 +19,7 @@ struct call {
   bool failed, short_of_memory;
 };
 
-/* Up to PACKET_SIZE rays that are as they should be, and which they are. */
+/* Up to PACKET_SIZE valid rays, and their numbers in the call. */
 struct packet {
   size_t count, number[PACKET_SIZE];
   struct ray rays[PACKET_SIZE];
@@ -32,7 +32,7 @@ static void *answer_at(const struct call *call, size_t number)
   return call->answers + (ptrdiff_t)number * call->answer_stride;
 }
 
-/* False where the ray is not as it should be. */
+/* Copies the ray. Returns false if it is invalid. */
 static bool take_ray(const struct pscn_ray *ray, struct ray *out)
 {
   bool finite = true, moves = false;
@@ -104,7 +104,7 @@ static void answer_occluded(struct call *call, const struct packet *packet)
 
 /* ---- all hits ---- */
 
-/* The count of a ray, and its row with what is written of `list`. */
+/* Writes the count of a ray and its row: the hits of `list` that there is room for, then misses. */
 static void write_list(struct call *call, size_t number, const struct pscn_hits *counts, const struct hit list[])
 {
   const size_t written = counts->count < call->most ? counts->count : call->most;
@@ -146,7 +146,7 @@ static void answer_all(struct call *call, const struct packet *packet)
 
 /* ---- calls ---- */
 
-/* What is done with rays that can be traced, and what is written where there is nothing to trace. */
+/* A query: how rays that can be traced are answered, and what is written for the others. */
 struct asked {
   void (*answer)(struct call *call, const struct packet *packet);
   void (*write)(struct call *call, size_t number, enum pscn_verdict verdict);

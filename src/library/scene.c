@@ -1,4 +1,4 @@
-/* Scenes for users of pscn.h: made of text or of points, and what was wrong kept with them. */
+/* Scenes for users of pscn.h, made from text or points and kept with the messages about them. */
 #include <math.h>
 #include <string.h>
 
@@ -37,7 +37,7 @@ static void add_message(struct pscn_scene *scene, struct message *message)
   scene->message_count++;
 }
 
-/* Stands for all messages that there was no memory for. */
+/* Adds one message for all those that there was no memory for. */
 static void add_spare(struct pscn_scene *scene)
 {
   if (scene->spare.shown) return;
@@ -112,8 +112,8 @@ static enum pscn_status wrong(struct pscn_scene *scene, const char *text)
   return PSCN_USAGE;
 }
 
-/* The caller's options as this version knows them: shorter ones, of an older version, ask for nothing more; longer
- * ones, of a newer, must not. None ends within a pointer. */
+/* The caller's options as this version knows them. Shorter ones, of an older version, ask for nothing more; longer
+ * ones, of a newer one, must not. A size that ends within a pointer is refused. */
 static bool take_options(const struct pscn_options *options, struct pscn_options *out)
 {
   *out = (struct pscn_options)PSCN_OPTIONS;
@@ -155,7 +155,7 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
   return PSCN_OK;
 }
 
-/* Control points, where a scene is made of them. */
+/* The control points that a scene is made from. */
 struct points {
   const double *first;
   size_t count;
@@ -189,7 +189,7 @@ static enum pscn_status add_points(struct pscn_scene *scene, const struct points
   return PSCN_OK;
 }
 
-/* What a scene is built from: the text at `text`, or where that is NULL the file `name`; then `points`, or NULL. */
+/* What a scene is built from: the text at `text`, or if that is NULL the file `name`; then `points`, or NULL. */
 struct origin {
   const char *name, *text;
   size_t length;
