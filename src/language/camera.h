@@ -11,19 +11,19 @@ enum { CAMERA_LOCATION, CAMERA_DIRECTION, CAMERA_RIGHT, CAMERA_UP, CAMERA_SKY, C
 struct camera_items {
   double item[6][3];
   bool said;    /* there is a camera statement */
-  bool unknown; /* a vector is, by an error before the camera */
+  bool unknown; /* a vector is, because of an earlier error */
   bool begun;   /* an item has come */
-  bool sorted;  /* POV-Ray sorts them, whatever order they come in */
+  bool sorted;  /* POV-Ray sorts the items, so that their order means nothing */
   bool look_at;
   bool moved;                 /* a transform has come */
-  double angle;               /* degrees, 0 where not given */
-  struct transform transform; /* of what all items but it make */
+  double angle;               /* degrees; 0: not given */
+  struct transform transform; /* applied to what all other items make */
   struct block block;
   struct span look_at_place;
 };
 
 void camera_default(struct camera_items *out);
-/* Actions of the grammar, in the order of the text. `place`: of the word. */
+/* Actions of the grammar, in the order of the text. `place`: that of the word. */
 void camera_begin(struct language *language, struct span place);
 void camera_perspective(struct language *language, struct span place);
 void camera_vector(struct language *language, int which, const struct value *value);
@@ -31,7 +31,7 @@ void camera_angle(struct language *language, const struct value *value);
 void camera_transform(struct language *language, const struct transform *transform);
 void camera_end(struct language *language);
 
-/* Folds the items into `out`; false, and an error told, where they make no picture. */
+/* Folds the items into `out`. Returns false, after reporting an error, if they make no picture. */
 bool camera_fold(struct language *language, const struct camera_items *items, struct scene_camera *out);
 
 #endif

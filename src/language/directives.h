@@ -1,13 +1,14 @@
-/* Directives, and whatever else the scanner finds that is not the grammar's. */
+/* Directives, and all other tokens of the scanner that are not the grammar's. */
 #ifndef PSCN_LANGUAGE_DIRECTIVES_H
 #define PSCN_LANGUAGE_DIRECTIVES_H
 
 #include "language/state.h"
 
-/* Deals with the scanner's last token where it is not the grammar's: true where it was such and the next one is wanted. */
+/* Handles the scanner's last token if it is not the grammar's. Returns whether it did, so that the next one is
+ * wanted. */
 bool directives_pass(struct language *language, int token);
 
-/* Tells of one that pscn has not, or nobody. */
+/* Reports a directive that pscn does not have, or that nobody has. */
 void directives_tell(struct language *language, int token);
 
 #endif

@@ -1,13 +1,13 @@
-/* From the tree of objects to the list of patches: each with its transforms applied, its texture and its solver. And
- * to the list of copies: which runs of patches are one declared object, moved. */
+/* From the tree of objects to the list of patches, each with its transforms applied, its texture and its solver; and to
+ * the list of copies, which says what runs of patches are one declared object, moved. */
 #ifndef PSCN_LANGUAGE_EXPAND_H
 #define PSCN_LANGUAGE_EXPAND_H
 
 #include "language/objects.h"
 #include "scene/scene.h"
 
-/* Puts all patches of language->objects, with their textures and solvers, into the scene, whose first method is that of
- * all. STATUS_INPUT after telling that a point is too large, STATUS_LIMIT. */
+/* Puts all patches of language->objects, with their textures and solvers, into the scene. `method` becomes the scene's
+ * first. STATUS_INPUT after reporting that a point is too large; STATUS_LIMIT. */
 enum status objects_expand(struct language *language, const struct method *method,
                            struct scene *scene) STATUS_MUST_CHECK;
 

@@ -1,8 +1,8 @@
-/* Where the file is that an #include names.
+/* Finds the file that an #include names.
  *
- * Folders are looked through as POV-Ray does: that of the scene, which it is started in, that of the file that includes, those
- * given. Where a name ends in neither .inc nor .INC each is tried behind it first, in all folders, and then the name itself. A
- * name that begins with / is whole.
+ * Folders are searched as in POV-Ray: first the scene's, because POV-Ray is started there, then the includer's, then
+ * those given. A name that ends in neither .inc nor .INC is first tried with each of these endings, in all folders, and
+ * then by itself. A name that begins with / is a whole path.
  */
 #ifndef PSCN_LANGUAGE_INCLUDE_PATH_H
 #define PSCN_LANGUAGE_INCLUDE_PATH_H
@@ -18,8 +18,8 @@ struct include_folders {
   const char *const *others;             /* ended by NULL; or NULL */
 };
 
-/* The path of the first file there is, and which file that is. *out_inode is 0 where there is none: then it is the path beside the
- * includer. NULL where memory is short. */
+/* Returns the path of the first file that exists, and which file it is. If none exists, *out_inode is 0, and the path
+ * is the one beside the includer. NULL if memory is short. */
 char *include_path(struct arena *arena, const struct include_folders *folders, const char *name, size_t length,
                    uint64_t *out_device, uint64_t *out_inode);
 

@@ -20,24 +20,23 @@ struct language_number {
   double value;
 };
 
-/* The size of a picture where nobody says another. */
+/* The size of a picture unless another is given. */
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600 };
 
 struct language_settings {
-  int image_width, image_height; /* pixels, >= 1: what image_width and image_height mean in the scene */
+  int image_width, image_height; /* pixels, >= 1: the values of image_width and image_height in the scene */
   const char *solver_text;       /* --solver TEXT: overrides every solver statement of the scene; or NULL */
   double tolerance;              /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
-  const char *const *folders;    /* where includes are looked for besides the includer's, ended by NULL; or NULL */
+  const char *const *folders;    /* where to look for includes besides the includer's folder, ended by NULL; or NULL */
   const struct language_number *numbers; /* number_count names declared beforehand */
   size_t number_count;
   size_t max_memory; /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
 };
 
-/* Whether a scene can declare that name: a word that neither the language nor POV-Ray reserves. */
+/* Whether a scene can declare that name: a word reserved neither by the language nor by POV-Ray. */
 bool language_is_name(const char *name, size_t length);
 
-/* Reads the scene file at `path`. The caller destroys *out_scene; on failure it is NULL and diagnostics have been
- * told why:
+/* Reads the scene file at `path`. The caller destroys *out_scene; on failure it is NULL, and diagnostics say why:
  *   STATUS_FILE   the file itself cannot be read
  *   STATUS_INPUT  the text is wrong, an included file cannot be read
  *   STATUS_USAGE  settings->solver_text or settings->tolerance is wrong
@@ -45,8 +44,8 @@ bool language_is_name(const char *name, size_t length);
 STATUS_MUST_CHECK enum status language_load(const char *path, const struct language_settings *settings,
                                             struct diagnostics *diagnostics, struct scene **out_scene);
 
-/* The same for `length` bytes at `text`, called `name` in diagnostics. Includes are looked for relative to the
- * folder part of `name`. */
+/* The same for `length` bytes at `text`. `name` is their name in diagnostics; includes are looked for relative to its
+ * folder part. */
 STATUS_MUST_CHECK enum status language_load_text(const char *name, const char *text, size_t length,
                                                  const struct language_settings *settings,
                                                  struct diagnostics *diagnostics, struct scene **out_scene);

@@ -11,36 +11,36 @@
 /* The settings of a patch, by number. */
 enum { PATCH_TYPE, PATCH_FLATNESS, PATCH_U_STEPS, PATCH_V_STEPS, PATCH_SETTINGS };
 
-/* What the copies of a declared object know of each other. */
+/* What the copies of a declared object share. */
 struct sharing {
   size_t uses;     /* how often it is named */
-  uint32_t object; /* one more than its index in scene.objects, once it is there */
+  uint32_t object; /* its index in scene.objects plus 1, once it is there */
 };
 
-/* What a patch says itself, shared by its copies. */
+/* The numbers of one patch, shared by its copies. */
 struct net {
   double P[4][4][3];
   double setting[PATCH_SETTINGS];
 };
 
-/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same
- * net or children. Scenes have millions of them. */
+/* A patch or a union, with its modifiers. Declared ones are shared: a copy has a node of its own, but the same net or
+ * children. Scenes have millions of them. */
 struct node {
-  struct node *next, *first;     /* the list it stands in; its own children */
+  struct node *next, *first;     /* the next of its list; its own children */
   struct net *net;               /* NULL: a union */
   struct transform *transform;   /* NULL: none */
   const struct texture *texture; /* NULL: none of its own */
   const struct method *method;   /* NULL: none of its own */
-  struct sharing *sharing;       /* of the declared object that it is or copies; NULL: neither */
+  struct sharing *sharing;       /* of the declared object that it is or is a copy of; NULL: neither */
   size_t patch_count;            /* in it and below */
-  struct span place;             /* of the word it begins with */
-  int height;                    /* unions below it within each other */
+  struct span place;             /* of its first word */
+  int height;                    /* unions nested below it */
 };
 
-/* One whose block is open. */
+/* A node whose block is open. */
 struct open_node {
   struct open_node *outer;
-  struct node node;  /* what it is to be */
+  struct node node;  /* the node being made */
   struct node *last; /* of its children */
   struct block block;
   enum stage stage;
@@ -51,14 +51,14 @@ struct open_node {
 /* Zeroed: no objects. */
 struct objects {
   struct open_node *open;   /* the innermost */
-  struct open_node *closed; /* for the next ones */
+  struct open_node *closed; /* to be reused */
   struct span whole;        /* of the last that was closed */
   struct open_node scene;   /* the union of all objects */
-  size_t copies;            /* how often declared ones are named */
+  size_t copies;            /* how often declared objects are named */
 };
 
-/* Actions of the grammar, in the order of the text: what begins is open until its end, which node_end follows, and what is
- * said in between is of the innermost that is open. `place`: of the word, of the name or of the comma. */
+/* Actions of the grammar, in the order of the text. What begins is open until its end, followed by node_end; the
+ * actions between concern the innermost open node. `place`: that of the word, of the name or of the comma. */
 void patch_begin(struct language *language, struct span place);
 void patch_number(struct language *language, int which, struct span item, const struct value *value);
 void patch_point(struct language *language, const struct value *value);

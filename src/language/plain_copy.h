@@ -1,18 +1,17 @@
-/* A scene's text as POV-Ray may read it: a copy of the file and of the files it includes, without solver statements.
+/* A scene's text as POV-Ray can read it: a copy of the file and of the files it includes, without solver statements.
  *
- * Everything else stays as it is, byte for byte, except that the copies are included by their own names: all of them
- * stand in one folder. What is removed leaves blanks, so that POV-Ray's messages name the lines of the scene. Both
- * branches of a condition are copied; an #include of a file that is not there is left alone.
+ * Everything else stays as it is, byte for byte, except that #includes name the copies, which are all in one folder.
+ * Blanks replace what is removed, so that line numbers in POV-Ray's messages are those of the scene. Both branches of a
+ * condition are copied; an #include of a file that does not exist is left alone.
  */
 #ifndef PSCN_LANGUAGE_PLAIN_COPY_H
 #define PSCN_LANGUAGE_PLAIN_COPY_H
 
 #include "base/status.h"
 
-/* Copies the scene file at `path` to `folder`/`name` and each included file to "K-FILE" beside it, K = 1, 2, ...
- * `folders` are those of language_settings.
- * STATUS_FILE where a file cannot be read or written: out_reason says why in English words; STATUS_LIMIT where
- * memory is short or more than 10000 files are included. */
+/* Copies the scene file at `path` to `folder`/`name`, and each included file to "K-FILE" beside it, K = 1, 2, ...
+ * `folders` are those of language_settings. STATUS_FILE if a file cannot be read or written: out_reason says why in
+ * English. STATUS_LIMIT if memory is short or more than 10000 files are included. */
 STATUS_MUST_CHECK enum status plain_copy(const char *path, const char *const *folders, const char *folder,
                                          const char *name, const char **out_reason);
 

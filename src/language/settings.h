@@ -11,7 +11,7 @@ struct light_node {
   struct scene_light light;
   struct transform transform;
   struct block block;
-  int values; /* position, colour: how many have come */
+  int values; /* how many have come: position, colour */
   bool after_comma, modified;
 };
 
@@ -19,15 +19,15 @@ struct light_node {
 struct settings {
   double background[3], ambient_light[3];
   double version;                                  /* the last #version */
-  struct method method;                            /* of all patches that have none of their own */
+  struct method method;                            /* of all patches without one of their own */
   struct block block;                              /* of the open background */
   int background_values;                           /* colours in it */
-  struct light_node *lights, **lights_end, *light; /* the last one is open */
+  struct light_node *lights, **lights_end, *light; /* the last one, and the one open */
   size_t light_count;
 };
 
 void settings_default(struct settings *out);
-/* Actions of the grammar, in the order of the text; what stands between a begin and its end is of that block. */
+/* Actions of the grammar, in the order of the text. Between a begin and its end they concern that block. */
 void language_version(struct language *language, const struct value *value);
 void global_gamma(struct language *language, const struct value *value);
 void global_trace_level(struct language *language, const struct value *value);

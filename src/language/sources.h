@@ -17,36 +17,36 @@ enum { MAX_CONDITIONS = 200 }; /* open in one source */
 struct frame {
   struct frame *outer;
   const struct source *source;
-  uint32_t base; /* of the spans in it */
+  uint32_t base; /* where its spans begin */
   struct scan scan;
   struct condition condition[MAX_CONDITIONS];
   int conditions;
 };
 
-/* Zeroed: none. */
+/* Zeroed: no sources. */
 struct sources {
-  struct frame *frame;     /* the one being read */
-  struct source_list *all; /* that have been read */
+  struct frame *frame;     /* being read */
+  struct source_list *all; /* all that have been read */
   struct table files;      /* the first source of each file */
   int count;
-  uint32_t end;               /* of the spans in all of them */
+  uint32_t end;               /* where the spans of all of them end */
   jmp_buf broken;             /* for the scanners */
-  const char *const *folders; /* where to look besides the includer's, or NULL */
+  const char *const *folders; /* where to look besides the includer's folder, or NULL */
 };
 
-/* Begins to read a source, which is taken over even on failure: false where memory is short. */
+/* Begins to read a source. Takes it over, even on failure. False if memory is short. */
 bool sources_open(struct language *language, struct source *source);
 
-/* Tells the scene which files were read; false where memory is short. */
+/* Writes the names of the files that were read to the scene; false if memory is short. */
 bool sources_list(const struct language *language, struct scene *scene);
 
-/* Reads the file name behind #include and begins to read that file, or tells an error. */
+/* Reads the file name behind #include and begins to read that file, or reports an error. */
 void sources_include(struct language *language);
 
-/* At a quote that is not closed. */
+/* Reports the unclosed quote at the last token. */
 void sources_tell_open_string(struct language *language);
 
-/* What has been read so far is needed no more, but for errors: the memory of a long text is given back. */
+/* The text read so far is needed only for errors now: gives back the memory of a long one. */
 void sources_pass(struct language *language);
 
 /* Goes back to the includer. */
@@ -59,20 +59,20 @@ static inline struct span sources_span(const struct frame *frame, size_t begin, 
   return span_of(frame->base + begin, frame->base + end);
 }
 
-/* Those of the last token of the source being read. */
+/* That of the last token of the source being read. */
 static inline struct span sources_here(const struct language *language)
 {
   const struct frame *frame = language->sources->frame;
   return sources_span(frame, frame->scan.begin, frame->scan.end);
 }
 
-/* Where that is, for an error; nowhere where the span is zeroed. */
+/* The place of a span, for an error; nowhere for a zeroed span. */
 struct place sources_place(const struct language *language, struct span span);
 
-/* Whether that is in the file being read. */
+/* Whether the span is in the file being read. */
 bool sources_has(const struct language *language, struct span span);
 
-/* The word that stands there, which has been read just now. */
+/* The word at the span, which has been read just now. */
 struct name sources_name(const struct language *language, struct span span);
 
 #endif

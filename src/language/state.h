@@ -1,9 +1,5 @@
-/* The bottom of this room: places, tokens, and the state of one reading with its errors and its memory.
- *
- * What happens where an error is found: it is told, and reading goes on with a harmless value, so that one run finds
- * many errors; a scene comes out only where none was found. What each part of the room keeps while reading stands in
- * its own header.
- */
+/* An error is reported where it is found, and reading goes on with a harmless value, so that one run finds many. A
+ * scene is made only if there was none. What each part of the room keeps while reading is in its own header. */
 #ifndef PSCN_LANGUAGE_STATE_H
 #define PSCN_LANGUAGE_STATE_H
 
@@ -14,11 +10,11 @@
 #include "base/arena.h"
 #include "base/diagnostics.h"
 
-/* Blocks open within each other, and declared objects within declared objects. */
+/* The most blocks open within each other, and declared objects within declared objects. */
 enum { MAX_NESTING = 200 };
 
-/* Bytes begin .. end-1 of the text: of all sources, one behind the other as their reading begins; byte 0 is none. One
- * number, begin x 2^32 + end, for the parser takes one along with each token. */
+/* Bytes begin .. end-1 of the text: all sources, one behind the other as their reading begins; byte 0 is none. One
+ * number, begin x 2^32 + end, because the parser carries one along with each token. */
 struct span {
   uint64_t ends;
 };
@@ -27,39 +23,39 @@ static inline struct span span_of(uint64_t begin, uint64_t end) { return (struct
 static inline uint32_t span_begin(struct span span) { return (uint32_t)(span.ends >> 32); }
 static inline uint32_t span_end(struct span span) { return (uint32_t)span.ends; }
 
-/* From the beginning of one to the end of the other. */
+/* From the beginning of `first` to the end of `last`. */
 static inline struct span span_join(struct span first, struct span last)
 {
   return span_end(last) < span_begin(first) ? first : span_of(span_begin(first), span_end(last));
 }
 
-/* A word that names something. The text is not terminated and lives as long as its source. */
+/* A word that names something. Its text is not terminated and lives as long as its source. */
 struct name {
   struct span place;
   const char *text;
   size_t length;
 };
 
-/* A block in braces, or what else is read piece by piece. */
+/* A block in braces, or something else that is read piece by piece. */
 struct block {
-  struct span place; /* of the word it begins with */
-  size_t errors;     /* told or held before it began */
+  struct span place; /* of its first word */
+  size_t errors;     /* reported or held before it */
 };
 
-/* How far a block has come: what may follow. */
+/* How far a block has come, which decides what may follow. */
 enum stage { STAGE_SETTINGS, STAGE_BODY, STAGE_MODIFIERS };
 
 struct symbol;
 
-/* What pscn has not, within a declaration: told where its name is used. */
+/* An error of what pscn lacks, within a declaration: reported only where the declared name is used. */
 struct held {
   struct held *next;
   struct span place;
-  const char *text; /* or, where that is NULL, */
-  struct held *of;  /* all of a name that was used there */
+  const char *text; /* or, if that is NULL, */
+  struct held *of;  /* all that is held of a name that was used there */
   /* Of the first of a list: */
-  bool told;          /* the list is, or is about to be */
-  struct held *after; /* the list that is told after it */
+  bool told;          /* the list has been reported, or is about to be */
+  struct held *after; /* the list to report after it */
 };
 
 /* A declaration that is being read. */
@@ -72,29 +68,29 @@ struct declaration {
 
 struct language {
   struct diagnostics *diagnostics;
-  struct arena *arena; /* of what is needed while reading only */
+  struct arena *arena; /* for what is needed only while reading */
   int width, height;
-  size_t memory_bytes, max_memory;        /* held while reading; allowed */
-  bool unaffordable;                      /* more was wanted */
-  bool ended_early;                       /* memory, or a stated limit: STATUS_LIMIT */
-  bool limit_told;                        /* which of them */
-  struct span unknown;                    /* the last word told to be unknown */
+  size_t memory_bytes, max_memory;        /* in use while reading; allowed */
+  bool unaffordable;                      /* more was needed */
+  bool ended_early;                       /* out of memory, or a stated limit: STATUS_LIMIT */
+  bool limit_told;                        /* it was a stated limit, which is reported */
+  struct span unknown;                    /* the last word reported as unknown */
   struct declaration *declaration;        /* the innermost that is open, or NULL */
-  struct declaration *layered;            /* a texture's, behind which more layers may come, or NULL */
+  struct declaration *layered;            /* the one of a texture, which more layers may follow, or NULL */
   size_t held_count;                      /* in all declarations */
-  struct value *unused;                   /* values that are needed no more */
-  const double *number;                   /* of the last token, if it is a number or a vector; until the next one */
-  _Alignas(max_align_t) char spare[4096]; /* stands in for memory that there is not */
+  struct value *unused;                   /* values to be reused */
+  const double *number;                   /* of the last token, if that is a number or a vector; until the next one */
+  _Alignas(max_align_t) char spare[4096]; /* stands in when memory is short */
   size_t spare_used;
 
   struct symbols *symbols;
   struct sources *sources;
   struct tokens *tokens;
   struct texture *texture;               /* the innermost that is open */
-  const struct texture *texture_default; /* what #default has said last */
+  const struct texture *texture_default; /* as the last #default left it */
   struct transform *transform;           /* the last statement's */
-  struct span transform_place;           /* and where it stands */
-  struct matrix *matrix;                 /* the numbers of the last one */
+  struct span transform_place;           /* its place */
+  struct matrix *matrix;                 /* numbers of the last one */
   struct transform_angles *angles;       /* of rotations */
   struct method *method;                 /* of the last solver statement */
   struct objects *objects;
@@ -102,44 +98,44 @@ struct language {
   struct settings *settings;
 };
 
-/* An error in how files are put together: in whole comments, quotes, conditions, blocks. */
+/* Reports an error in how files are put together: in comments, quotes, conditions or blocks as a whole. Never held. */
 void language_tell(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* An error in what the text means. */
+/* Reports an error in what the text means. */
 void language_error(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* What pscn has not, though POV-Ray may. Where a declaration is being read this is held, and so is what language_error
- * gets in it from there on: libraries declare more than a scene uses. */
+/* Reports what pscn lacks, though POV-Ray may have it ("foreign"). Within a declaration this is held, and so is all
+ * that language_error gets in it from there on, because libraries declare more than a scene uses. */
 void language_foreign(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Whether language_error holds what it gets now. */
+/* Whether language_error now holds what it gets. */
 bool language_holds(const struct language *language);
 
-/* Whether the declaration being read holds so much that language_foreign only counts what it gets now. */
+/* Whether the declaration being read holds so much that language_foreign now only counts. */
 bool language_holds_enough(const struct language *language);
 
-/* The same of a name that was declared so. */
+/* Holds all that is held of a foreign name used here. */
 void language_hold(struct language *language, struct span place, struct held *of);
 
 struct block language_block(const struct language *language, struct span place);
-/* Whether no error has been told since the block began: what is missing in it may be the consequence of one. */
+/* Whether no error has been reported since the block began. If one has, what is missing in it may be a consequence. */
 bool language_sound(const struct language *language, const struct block *block);
-/* An error about a block, told only where it is sound. */
+/* Reports an error about a block, if the block is sound. */
 void language_error_in(struct language *language, const struct block *block, struct span place, const char *text);
 
-/* A stated limit: reading ends at the next token, with STATUS_LIMIT. */
+/* Reports a stated limit: reading ends at the next token, with STATUS_LIMIT. */
 void language_limit(struct language *language, struct span place, const char *text);
 
-/* Whether so many more bytes are within what settings.max_memory allows; if so they are counted. */
+/* Whether settings.max_memory allows that many more bytes; if so, counts them. */
 bool language_afford(struct language *language, size_t bytes);
 
-/* zeroed, never NULL: reading ends at the next token instead */
+/* Zeroed memory, never NULL. If memory is short, reading ends at the next token. */
 void *language_alloc(struct language *language, size_t size);
 
-/* A copy of text that may be dropped; NULL where memory is short: reading ends then. */
+/* A copy of text that may be dropped. NULL if memory is short; reading then ends. */
 const char *language_keep(struct language *language, const char *text, size_t length);
 
 #endif

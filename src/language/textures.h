@@ -5,7 +5,7 @@
 #include "language/values.h"
 #include "scene/scene.h"
 
-/* The doubles of a scene_texture, by number, and which of them a block can set, by bits. */
+/* The doubles of a scene_texture, by number; and those that a block can set, as bits. */
 enum {
   PART_PIGMENT = 0,
   PART_AMBIENT = 3,
@@ -20,34 +20,34 @@ enum {
 enum texture_block { TEXTURE_PIGMENT = 0x007, TEXTURE_FINISH = 0xff8, TEXTURE_ALL = 0xfff };
 
 struct texture {
-  struct texture *outer; /* while its block is open */
+  struct texture *outer; /* the block around it, while it is open */
   struct span place;
   enum texture_block block; /* the statement it comes from */
   unsigned set;
-  enum stage stage;        /* of the open block: its declared name or colour, then the rest */
-  bool coloured, doubtful; /* a colour stands in the open pigment; or what may have been meant as one */
+  enum stage stage;        /* of the open block: first its declared name or colour, then the rest */
+  bool coloured, doubtful; /* the open pigment has a colour; or what may have been meant as one */
   union {
     struct scene_texture is;
     double part[PARTS];
   };
 };
 
-/* What holds until #default says more, which is of what stands behind it only. */
+/* The texture until the first #default, which only affects what follows it. */
 extern const struct texture TEXTURE_OF_POVRAY;
 void texture_set_default(struct language *language, const struct texture *texture);
-/* What is set in `from` replaces what is in `to`. */
+/* What is set in `from` replaces that in `to`. */
 void texture_apply(struct texture *to, const struct texture *from);
 
-/* Actions of the grammar, in the order of the text: what stands between a begin and its end is of the innermost block. */
+/* Actions of the grammar, in the order of the text. Between a begin and its end they concern the innermost block. */
 void texture_begin(struct language *language, struct span place, enum texture_block block);
 struct texture *texture_end(struct language *language, struct span brace);
 void texture_named(struct language *language, struct span name);
 void texture_merge(struct language *language, const struct texture *texture);
-void texture_moved(struct language *language); /* a transform, which changes nothing of one colour */
+void texture_moved(struct language *language); /* a transform, which does not change a plain colour */
 void pigment_value(struct language *language, const struct value *value);
 void finish_ambient(struct language *language, const struct value *value);
 void finish_number(struct language *language, int part, const struct value *value);
-void layer_begin(struct language *language, struct span place); /* of the texture declared last, one more */
+void layer_begin(struct language *language, struct span place); /* one more layer of the texture declared last */
 void layer_end(struct language *language);
 void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture);
 

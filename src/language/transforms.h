@@ -1,16 +1,16 @@
-/* Affine transforms as POV-Ray has them: row vectors, angles in degrees, rotation about x, then y, then z. */
+/* Affine transforms as in POV-Ray: row vectors, angles in degrees, rotation about x, then y, then z. */
 #ifndef PSCN_LANGUAGE_TRANSFORMS_H
 #define PSCN_LANGUAGE_TRANSFORMS_H
 
 #include "geometry/transform.h"
 #include "language/values.h"
 
-/* The statements, each until the next one; the identity where an error has been told. */
+/* The statements. A result lives until the next one; after an error it is the identity. */
 const struct transform *transform_translate(struct language *language, struct span place, const struct value *by);
 const struct transform *transform_rotate(struct language *language, struct span place, const struct value *by);
 const struct transform *transform_scale(struct language *language, struct span place, const struct value *by);
 
-/* The numbers of a matrix statement, until the next one; NULL: it has but three, as one vector. */
+/* The numbers of a matrix statement, until the next one. For NULL, it has only three, as one vector. */
 struct matrix {
   double number[12];
   int count;

@@ -1,53 +1,54 @@
-/* Values and arithmetic, with POV-Ray's promotion: beside a vector a number stands for three of it, and what a colour
- * takes part in is a colour. Errors are told at the places that values bring along. */
+/* Values and arithmetic, with POV-Ray's promotion: beside a vector, a number stands for three equal ones; an operation
+ * with a colour gives a colour. Errors are reported at the places of the values. */
 #ifndef PSCN_LANGUAGE_VALUES_H
 #define PSCN_LANGUAGE_VALUES_H
 
 #include "language/symbols.h"
 
-/* They are made in the order in which the grammar meets them, and what is made of some takes the place of the first in
- * memory; the others are of no more use then. */
+/* Values are made in the order in which the grammar meets them. A result takes the memory of its first operand; the
+ * other operands must not be used afterwards. */
 struct value *value_of_number(struct language *language, double x, struct span place);
 struct value *value_of_vector(struct language *language, const double x[3], struct span place);
 struct value *value_axis(struct language *language, int axis, struct span place);
 struct value *value_named(struct language *language, struct span name);
-/* A vector of two parts, which is refused. */
+/* Refuses a vector of two parts. */
 struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place);
 struct value *value_of_parts(struct language *language, struct value *x, struct value *y, struct value *z,
                              struct span place);
-/* The same value, which stands there, and no longer is a component of another, or one whose five parts are not all its own. */
+/* The same value at another place, no longer marked as a component, open or wide. */
 struct value *value_placed(struct value *value, struct span place);
 struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
 struct value *value_negative(struct language *language, struct value *a, struct span place);
 struct value *value_positive(struct language *language, struct value *a, struct span place);
-/* In parentheses, where it has nothing to do with what is beside it. */
+/* A value in parentheses, which its neighbours do not affect. */
 struct value *value_alone(struct language *language, struct value *a, struct span place);
-/* `name`: the component's */
+/* `name`: that of the component. */
 struct value *value_component(struct language *language, struct value *a, int index, struct span name);
 struct value *value_rgb(struct language *language, struct value *a, struct span place);
 struct value *value_color(struct language *language, struct value *a, struct span place);
-/* After rgbf, rgbt (4 parts) and rgbft (5): a number or a colour; or each part, transmit NULL where there are 4. */
+/* After rgbf or rgbt (4 parts) or rgbft (5): a number or a colour; or each part, with transmit NULL if there are 4. */
 struct value *value_rgbft(struct language *language, struct value *a, int parts, struct span place);
 struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
                          struct value *filter, struct value *transmit, struct span place);
-/* A colour without rgb or color, with one part said by name, as by value_part. */
+/* A colour without rgb or color, with one part given by name as in value_part. */
 struct value *value_bare_part(struct language *language, struct value *colour, int part, struct value *value,
                               struct span place);
-/* A colour, black where NULL, with one part said by name: 0 red, 1 green, 2 blue, 3 filter or transmit. */
+/* A colour, black if NULL, with one part given by name: 0 red, 1 green, 2 blue, 3 filter or transmit. */
 struct value *value_part(struct language *language, struct value *colour, int part, struct value *value,
                          struct span place);
-/* A whole one, about to be used: it can be read until the next one is made. */
+/* A complete value, about to be used. It can be read until the next one is made. */
 struct value *value_last(struct language *language, struct value *value);
 
-/* What is wanted, or an error. Nothing is written to `out` then; value_to_number answers false. */
+/* Converts a value, or reports an error; `out` is then not written, and value_to_number returns false. */
 void value_to_vector(struct language *language, const struct value *a, double out[3]);
-void value_to_colour(struct language *language, const struct value *a, double out[3]); /* of parts that are floats */
+void value_to_colour(struct language *language, const struct value *a, double out[3]); /* of parts within a float's
+                                                                                          range */
 bool value_to_number(struct language *language, const struct value *a, double *out);
-/* As value_to_colour, where POV-Ray heeds transparency: a colour that has some there, or a bare number, is an error. */
+/* As value_to_colour, where POV-Ray heeds transparency: a transparent colour, or a bare number, is an error. */
 void value_to_opaque(struct language *language, const struct value *a, double out[3]);
-/* Whether x is within a float's range, as POV-Ray's colours and finishes are: then products of some are doubles. */
+/* Whether x is within a float's range, as POV-Ray's colours and finishes are. Products of some are then doubles. */
 bool value_is_float(double x);
-/* As a number in [low, high], or an error saying that `what` must be so, and false. */
+/* A number in [low, high], or an error that `what` must be so, and false. */
 bool value_in_range(struct language *language, const struct value *a, const char *what, double low, double high,
                     bool whole, double *out);
 

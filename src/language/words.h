@@ -1,48 +1,49 @@
-/* Words: which token each is, which are POV-Ray's and not ours, and which word a misspelt one was meant to be. */
+/* Words: the token of each, those that are POV-Ray's and not ours, and the word that a misspelt one was meant to be. */
 #ifndef PSCN_LANGUAGE_WORDS_H
 #define PSCN_LANGUAGE_WORDS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What token a word, or a directive with its # or behind comments without, is. */
+/* The token of a word; and of a directive, given with its #, or without it where comments stand between the two. */
 int words_token(const char *word, size_t length);
 int words_directive_token(const char *text, size_t length);
 
-/* Whether POV-Ray declares that name before it reads a scene. Two of them are words here; the others nobody declares, but
- * a condition on them must hold. */
+/* Whether POV-Ray declares that name before it reads a scene. Two of them are words here. Nobody declares the others,
+ * but a condition on them must hold. */
 bool words_declared(const char *word, size_t length);
 
-/* The name of a directive, behind its # and blanks, if they are in the text; *length, which was the directive's, becomes its own. */
+/* The name of a directive, behind its # and blanks if the text has them. *length, that of the text, becomes that of the
+ * name. */
 const char *words_directive(const char *text, size_t *length);
 
-/* Whether a token begins a statement, or an item of a block and not a value. */
+/* Whether a token begins a statement; or an item of a block, not a value. */
 bool words_begin_statement(int token);
 bool words_begin_item(int token);
 
-/* All words of a kind, from 0 on; NULL behind the last: those that begin a statement, other words of the language, names
- * of values, directives without their #, and POV-Ray's words that are not ours. */
+/* All words of a kind, from 0 on; NULL behind the last. The kinds: those that begin a statement, other words of the
+ * language, names of values, directives without their #, and POV-Ray's words that are not ours. */
 enum words_kind { WORDS_STATEMENTS, WORDS_ITEMS, WORDS_VALUES, WORDS_DIRECTIVES, WORDS_FOREIGN };
 const char *words_at(enum words_kind kind, size_t index);
 
-/* Below, at or above 0 as word[0 .. length-1] stands before, is, or stands behind `name` in the order of bytes. */
+/* Below, at or above 0 if word[0 .. length-1] comes before, equals, or comes behind `name` in byte order. */
 int words_compare(const char *word, size_t length, const char *name);
 
 /* "a, b or c", cut off at `size` bytes. */
 void words_list(const char *const words[], size_t count, char *out, size_t size);
 
-/* A search for the word that is meant by another: as many letters may be wrong as a third of its length, at least one;
- * counted are insertions, deletions, replacements and swaps of neighbours. Of equal candidates the first is taken. */
+/* A search for the word that was meant by another. A third of its letters may be wrong, and at least one; insertions,
+ * deletions, replacements and swaps of neighbours count. Of equally near candidates the first is taken. */
 struct guess {
   const char *word;
   size_t length;
-  const char *best; /* NULL where none is near enough */
+  const char *best; /* NULL if none is near enough */
   size_t best_length, distance;
 };
 
 struct guess guess_begin(const char *word, size_t length);
 void guess_consider(struct guess *guess, const char *candidate, size_t length);
 void guess_keywords(struct guess *guess);   /* considers all words of the language */
-void guess_directives(struct guess *guess); /* and all its directives */
+void guess_directives(struct guess *guess); /* considers all its directives */
 
 #endif
