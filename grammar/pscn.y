@@ -1,9 +1,8 @@
-/* The grammar of the language. Each action is one call; what things mean is in src/language.
+/* The grammar of the language. Each action is one call; src/language gives it its meaning.
  *
  * Every block in braces is a flat list of items with an `error` item, and every brace belongs to such a block. So the
- * parser recovers in the block in which the error stands, and tokens_recover, which counts braces, skips to where its
- * next item begins. What may follow what within a block is checked where items have a meaning, which also makes for
- * clearer errors.
+ * parser recovers in the block of the error, and tokens_recover, which counts braces, skips to where its next item
+ * begins. The order of items in a block is checked where they get their meaning, which also makes errors clearer.
  */
 %require "3.8"
 %define api.pure full
@@ -30,7 +29,7 @@
 #define YYMALLOC(size) memory_alloc(1, size)
 #define YYFREE memory_free
 
-/* In the action of an `error` item: the parser goes on with the token tokens_recover stops at. */
+/* In the action of an `error` item: the parser goes on with the token at which tokens_recover stops. */
 #define RECOVER() \
   do { \
     yyerrok; \
@@ -45,7 +44,7 @@ static int pscn_lex(PSCN_STYPE *value, struct language *language)
   return token;
 }
 
-/* Told by the parser only when its stack is full. */
+/* The parser calls this only when its stack is full. */
 static void pscn_error(struct language *language, const char *message)
 {
   (void)message;
@@ -80,7 +79,7 @@ static void pscn_error(struct language *language, const char *message)
 %token <place> SPECULAR "specular" ROUGHNESS "roughness"
 %token <place> COLOR "color" RGB "rgb" X "x" Y "y" Z "z" RED "red" GREEN "green" BLUE "blue" PI "pi"
 %token <place> IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height" VERSION_WORD "version"
-%token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use POV-Ray warns of */
+%token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use makes POV-Ray warn */
 %token <place> RGBF "rgbf" RGBFT "rgbft" FILTER "filter"
 %token <place> SOLVER "solver"
 
@@ -93,7 +92,7 @@ static void pscn_error(struct language *language, const char *message)
 %type <matrix> matrix_numbers
 %type <transform> transform
 
-/* A declaration that an error ends: its name is not unknown as well. */
+/* A declaration that an error ends: its name must not be reported as unknown as well. */
 %destructor { declare_broken(language, $$); } <declaration>
 
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
@@ -124,7 +123,7 @@ statement:
   | error                                      { RECOVER(); }
   ;
 
-/* Within a texture POV-Ray would begin again with what the default was before. */
+/* Not within a texture, where POV-Ray would begin again with the previous default. */
 default: DEFAULT '{' default_items '}';
 default_items: %empty | default_items default_item;
 default_item:
@@ -150,7 +149,7 @@ semicolon: %empty %prec ITEM | ';';
 
 /* ---- values ---- */
 
-/* A whole value, and a whole colour. */
+/* A complete value, and a complete colour. */
 value: expression %prec ITEM                   { $$ = value_last(language, $1); };
 shade: colour %prec ITEM                       { $$ = value_last(language, $1); };
 
@@ -378,7 +377,7 @@ solver_item:
   | error                                      { RECOVER(); }
   ;
 
-/* A name may be a word of the item's; within an expression it stands in parentheses. */
+/* A name may be a keyword of the item. So a declared name that is part of an expression must be in parentheses. */
 quantity:
     NUMBER                                     { $$ = value_of_number(language, *language->number, $1); }
   | '(' expression ')'                         { $$ = value_placed($2, span_join($1, $3)); }

@@ -47,7 +47,7 @@ enum stage { STAGE_SETTINGS, STAGE_BODY, STAGE_MODIFIERS };
 
 struct symbol;
 
-/* An error of what pscn lacks, within a declaration: reported only where the declared name is used. */
+/* An error that a declaration holds: reported only where the declared name is used. */
 struct held {
   struct held *next;
   struct span place;
@@ -102,7 +102,7 @@ struct language {
 void language_tell(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Reports an error in what the text means. */
+/* Reports, or holds, an error in what the text means. */
 void language_error(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 

@@ -41,8 +41,7 @@ struct value *value_last(struct language *language, struct value *value);
 
 /* Converts a value, or reports an error; `out` is then not written, and value_to_number returns false. */
 void value_to_vector(struct language *language, const struct value *a, double out[3]);
-void value_to_colour(struct language *language, const struct value *a, double out[3]); /* of parts within a float's
-                                                                                          range */
+void value_to_colour(struct language *language, const struct value *a, double out[3]); /* its parts are floats */
 bool value_to_number(struct language *language, const struct value *a, double *out);
 /* As value_to_colour, where POV-Ray heeds transparency: a transparent colour, or a bare number, is an error. */
 void value_to_opaque(struct language *language, const struct value *a, double out[3]);
