@@ -1,5 +1,5 @@
-/* The camera's items, folded into location, direction, right and up as POV-Ray 3.7 does it, wherever they stand: the
- * angle sets the length of direction from that of right; look_at comes after all vectors and turns the frame, keeping
+/* Folds the camera's items into location, direction, right and up as POV-Ray 3.7 does, wherever they stand: the angle
+ * sets the length of direction from that of right; look_at takes effect after all vectors and turns the frame, keeping
  * lengths and handedness; the transforms come last. */
 #include "language/camera.h"
 
@@ -11,13 +11,14 @@
 
 #define RADIANS_A_DEGREE (3.14159265358979323846 / 180)
 
-/* Of unit vectors: below this they lie in a line or in a plane to within what their own rounding leaves open. */
+/* A limit for unit vectors: below it, they are in a line or in a plane, as far as their own rounding lets one tell. */
 #define FLAT 0x1p-45
 
-/* The first version of which POV-Ray sorts the items; in older ones each does what it does where it stands. */
+/* From this version on, POV-Ray sorts the items. In older ones, each acts where it stands. */
 #define VERSION_SORTED 3.5
 
-/* Absolute, in the units of `sky`, as POV-Ray has it: how far its tip may be from the line of sight and it still lie along it. */
+/* POV-Ray's absolute limit, in the units of `sky`: how far its tip may be from the line of sight for it to lie along
+ * that. */
 #define ALONG_SKY 1e-10
 
 void camera_default(struct camera_items *out)
@@ -36,7 +37,7 @@ void camera_begin(struct language *language, struct span place)
   camera->block = language_block(language, place);
 }
 
-/* The version that counts is the one before the first item. */
+/* The version before the first item counts. */
 static struct camera_items *begin_item(struct language *language)
 {
   struct camera_items *camera = language->camera;
@@ -51,7 +52,7 @@ void camera_perspective(struct language *language, struct span place)
   begin_item(language);
 }
 
-/* An item behind another one that POV-Ray would have had to know it. */
+/* Reports an item behind another one that depends on it in POV-Ray. */
 static void tell_late(struct language *language, struct span place)
 {
   if (!language->camera->sorted)
@@ -64,7 +65,8 @@ void camera_vector(struct language *language, int which, const struct value *val
   value_to_vector(language, value, camera->item[which]);
   camera->unknown |= value->kind == VALUE_UNKNOWN;
   const bool of_angle = which == CAMERA_DIRECTION || which == CAMERA_RIGHT;
-  if (camera->moved || camera->look_at || (camera->angle > 0 && of_angle)) /* a look_at begins from another's frame */
+  if (camera->moved || camera->look_at || (camera->angle > 0 && of_angle)) /* a second look_at begins from the first
+                                                                              one's frame */
     tell_late(language, value->place);
   if (which != CAMERA_LOOK_AT) return;
   camera->look_at = true;
@@ -91,7 +93,7 @@ void camera_transform(struct language *language, const struct transform *transfo
   camera->transform = transform_then(&camera->transform, transform);
 }
 
-/* Errors are told while the camera's text is at hand. */
+/* Errors are reported while the camera's text is at hand. */
 void camera_end(struct language *language)
 {
   struct scene_camera unused;
@@ -99,8 +101,8 @@ void camera_end(struct language *language)
     camera_fold(language, language->camera, &unused);
 }
 
-/* The length of v, and v of length 1; 0 for a zero vector, whose direction is not written. Nothing over- or
- * underflows but the length itself. */
+/* Returns the length of v, and writes v scaled to length 1. For a zero vector, returns 0 and writes nothing. Nothing
+ * over- or underflows except the length itself. */
 static double unit(const double v[3], double out[3])
 {
   const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
@@ -114,25 +116,25 @@ static double unit(const double v[3], double out[3])
   return ldexp(length, exponent);
 }
 
-/* A camera while it is folded: unit vectors and their lengths. */
+/* A camera while it is folded: unit vectors, and the lengths they had. */
 struct camera_frame {
   double direction[3], right[3], up[3];
   double direction_length, right_length, up_length;
 };
 
-/* Whether the camera looks along the sky, of that length, so that what is across both says nothing: POV-Ray's measure,
- * without which the picture would be turned about its middle. */
+/* Whether the camera looks along the sky, of that length, so that the direction across both means nothing. This is
+ * POV-Ray's criterion, without which the picture would be turned about its middle. */
 static bool along_sky(const double across[3], double sky_length)
 {
   const double largest = fmax(fabs(across[0]), fmax(fabs(across[1]), fabs(across[2])));
   return largest * sky_length < ALONG_SKY;
 }
 
-/* Turns the frame towards look_at. Seen along the sky, right stays where it is. */
+/* Turns the frame towards look_at. If that is along the sky, right stays where it is. */
 static bool turn_frame(struct language *language, const struct camera_items *items, struct camera_frame *frame)
 {
   double across[3], sky[3], ahead[3], hand[3];
-  for (int k = 0; k < 3; k++) /* halves, for the difference may be no number */
+  for (int k = 0; k < 3; k++) /* halves, because the difference may overflow */
     ahead[k] = items->item[CAMERA_LOOK_AT][k] / 2 - items->item[CAMERA_LOCATION][k] / 2;
   if (!(unit(ahead, ahead) > 0)) {
     language_error(language, items->look_at_place, "the camera looks at its own location");
@@ -153,13 +155,13 @@ static bool turn_frame(struct language *language, const struct camera_items *ite
   vector_cross(ahead, across, frame->up);
   vector_scale(sign, across, frame->right);
   const double height = unit(frame->up, frame->up);
-  if (along) frame->up_length *= height; /* right may lean towards the direction, which makes POV-Ray's up shorter */
+  if (along) frame->up_length *= height; /* right may lean towards the direction, which shortens POV-Ray's up */
   if (height > 0) return true;
   language_error(language, items->look_at_place, "the camera looks along its sky and its right");
   return false;
 }
 
-/* The vectors as a frame; false, told, where one is zero. */
+/* Makes a frame of the vectors. False, after an error, if one is zero. */
 static bool make_frame(struct language *language, struct span place, const double direction[3], const double right[3],
                        const double up[3], struct camera_frame *out)
 {
@@ -171,7 +173,7 @@ static bool make_frame(struct language *language, struct span place, const doubl
   return false;
 }
 
-/* Whether the frame spans the space; told where not. */
+/* Whether the frame spans space. If not, this is reported. */
 static bool spans(struct language *language, struct span place, const struct camera_frame *frame)
 {
   double cross[3];
@@ -197,7 +199,7 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
 {
   struct camera_frame frame;
   if (!fold_frame(language, items, &frame)) return false;
-  /* What nothing has changed stays as it is to the bit. */
+  /* What has not changed stays the same to the bit. */
   memcpy(out->location, items->item[CAMERA_LOCATION], sizeof out->location);
   memcpy(out->direction, items->item[CAMERA_DIRECTION], sizeof out->direction);
   memcpy(out->right, items->item[CAMERA_RIGHT], sizeof out->right);
@@ -219,7 +221,7 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
     language_error(language, items->block.place, "the camera's vectors are too large for numbers");
     return false;
   }
-  /* What a number is too small for is 0 by now, and a transform may have left nothing but what all three share. */
+  /* Numbers may have underflowed to 0, and a transform may have left only what all three vectors share. */
   return make_frame(language, items->block.place, out->direction, out->right, out->up, &frame) &&
          spans(language, items->block.place, &frame);
 }

@@ -1,4 +1,4 @@
-/* Directives, and whatever else is not the grammar's. */
+/* Directives, and all other tokens that are not the grammar's. */
 #include "language/directives.h"
 
 #include <stdio.h>
@@ -19,9 +19,9 @@ static void tell_open_comment(struct language *language)
 
 /* ---- conditions ---- */
 
-/* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own,
- * also those that only POV-Ray has. `foreign`: the directive of POV-Ray's that is skipped, which may read it; else 0. Answers
- * the token it stopped at; 0 is the end of the source. `macro`: whose text it is, or NULL. */
+/* Skips to the #end of a condition, or if `to_else` to its #else. The skipped text may hold conditions of its own, also
+ * those that only POV-Ray has. `foreign`: the skipped directive of POV-Ray's, which may read that text; else 0.
+ * `macro`: the macro whose text it is, or NULL. Returns the token at which it stopped; 0 is the end of the source. */
 static int skip_branch(struct language *language, bool to_else, int foreign, struct macro *macro)
 {
   struct naming naming = {0};
@@ -43,7 +43,7 @@ static int skip_branch(struct language *language, bool to_else, int foreign, str
     case TOKEN_ELSE:
       if (depth == 0 && to_else) return token;
       break;
-    case TOKEN_ELSEIF: /* its branch may be the one that counts */
+    case TOKEN_ELSEIF: /* this branch may be the one that counts */
       if (depth == 0 && to_else) directives_tell(language, token);
       break;
     case TOKEN_ENDIF:
@@ -54,7 +54,8 @@ static int skip_branch(struct language *language, bool to_else, int foreign, str
   }
 }
 
-/* "(NAME)": whether the name is declared. The words of the language never are, as in POV-Ray, whose own names are. */
+/* Reads "(NAME)": whether the name is declared. As in POV-Ray, the words of the language never are; POV-Ray's own names
+ * are. */
 static bool condition_holds(struct language *language, const char *directive)
 {
   struct scan *scan = &language->sources->frame->scan;
@@ -91,7 +92,7 @@ static void begin_condition(struct language *language, bool wanted)
   if (stopped == TOKEN_ENDIF) frame->conditions--;
 }
 
-/* At an #else, whose branch is skipped for the one before it has been read, or at an #end. */
+/* At an #else, whose branch is skipped because the one before it has been read, or at an #end. */
 static void end_condition(struct language *language, int token)
 {
   struct frame *frame = language->sources->frame;
@@ -110,7 +111,8 @@ static void end_condition(struct language *language, int token)
 
 /* ---- what is not the grammar's ---- */
 
-/* The name behind a directive, which is no word of the language or of POV-Ray's; false, told, where there is none. */
+/* Reads the name behind a directive, which is not a word of the language or of POV-Ray's. False, after an error, if
+ * there is none. */
 static bool next_name(struct language *language, const char *directive, struct name *out)
 {
   const int token = pscn_scan_next(&language->sources->frame->scan);
@@ -123,7 +125,7 @@ static bool next_name(struct language *language, const char *directive, struct n
   return false;
 }
 
-/* A macro may be defined; what is in it is not read, but for the names that it declares. */
+/* A macro may be defined. Its text is not read, except for the names that it declares. */
 static void skip_macro(struct language *language)
 {
   const struct span place = sources_here(language);
@@ -160,7 +162,7 @@ void directives_tell(struct language *language, int token)
   else language_tell(language, place, "unknown directive '#%.*s'", (int)length, name);
 }
 
-/* The end of a source: false where it was the last. */
+/* Ends a source. Returns false if it was the last. */
 static bool end_of_source(struct language *language)
 {
   struct frame *frame = language->sources->frame;
@@ -177,7 +179,7 @@ static bool end_of_source(struct language *language)
   return true;
 }
 
-/* Text from a command line names no files and asks nothing. */
+/* Text from a command line names no files and has no conditions. */
 static bool refused_directive(struct language *language, int token)
 {
   const bool directive = (token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE) ||
@@ -206,7 +208,7 @@ bool directives_pass(struct language *language, int token)
   case TOKEN_FOR:
     directives_tell(language, token);
     skip_branch(language, false, token, NULL);
-    return language->tokens->last.token != '='; /* behind which it stands for a value, and is no more passed over */
+    return language->tokens->last.token != '='; /* behind = it stands for a value, and is not skipped */
   case TOKEN_MACRO: skip_macro(language); return true;
   case TOKEN_UNDEF: undeclare(language); return true;
   default: return false;

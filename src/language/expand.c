@@ -5,16 +5,16 @@
 
 #include "base/real.h"
 
-/* Of objects within objects, the outermost that has no more patches than this is the one whose copies are told. */
+/* Of nested objects, the outermost with at most this many patches is the one whose copies are recorded. */
 enum { COPIED_MOST = 1024 };
 
-/* A list of the scene's, which grows by doubling in its arena. */
+/* A list of the scene, which grows by doubling in the scene's arena. */
 struct list {
   void **items;
-  size_t *count, capacity, size; /* size: of an element */
+  size_t *count, capacity, size; /* size: that of an element */
   size_t expected;               /* how many there may be: room for so many at first, or for 16 */
-  struct table known;            /* its elements, where they are all different */
-  const void *last;              /* what was asked for last */
+  struct table known;            /* its elements, if they are all different */
+  const void *last;              /* asked for last */
   uint32_t last_index;
 };
 
@@ -28,17 +28,17 @@ struct expansion {
   struct scene *scene;
   struct list textures, methods, objects, copies;
   bool in_copy;
-  bool told; /* that a point is too large */
+  bool told; /* a point that is too large */
 };
 
-/* What a node passes down to those below it. */
+/* What a node passes down to its children. */
 struct inherited {
   const struct transform *transform;
-  const struct texture *texture; /* of the nearest node that has one, as each object of the scene has */
+  const struct texture *texture; /* of the nearest node that has one; each object of the scene does */
   const struct method *method;   /* likewise, or the scene's */
 };
 
-/* A new element, or NULL where memory is short. */
+/* Appends a new element; NULL if memory is short. */
 static void *append(struct arena *arena, struct list *list)
 {
   if (*list->count == list->capacity) {
@@ -52,7 +52,7 @@ static void *append(struct arena *arena, struct list *list)
   return (char *)*list->items + (*list->count)++ * list->size;
 }
 
-/* The index of the element equal to `item`, which becomes one if there is none. Neighbours mostly ask for one item. */
+/* Finds the element equal to `item`, or adds one. Neighbours mostly ask for the same item. */
 static bool intern(struct expansion *e, struct list *list, const void *item, uint32_t *out)
 {
   if (item == list->last) {
@@ -104,7 +104,7 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
          intern(e, &e->methods, with->method, &patch->solver);
 }
 
-/* The control nets below a node, from out[0] on; returns their end. */
+/* Writes the control nets below a node from out[0] on. Returns their end. */
 static double (*collect_nets(const struct node *node, const struct transform *transform,
                              double (*out)[4][4][3]))[4][4][3]
 {
@@ -119,7 +119,7 @@ static double (*collect_nets(const struct node *node, const struct transform *tr
   return out;
 }
 
-/* Tells that what is expanded next is the object of `node`, moved. */
+/* Records that the patches expanded next are the object of `node`, moved. */
 static bool begin_copy(struct expansion *e, const struct node *node, const struct transform *transform)
 {
   struct scene *scene = e->scene;
@@ -144,7 +144,7 @@ static bool begin_copy(struct expansion *e, const struct node *node, const struc
   return true;
 }
 
-/* As deep as unions are nested: MAX_NESTING at most. Each child has a patch. */
+/* Recurses as deep as unions are nested: MAX_NESTING at most. Each child has a patch. */
 static bool expand(struct expansion *e, const struct node *node, const struct inherited *above)
 {
   struct inherited with = *above;

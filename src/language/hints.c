@@ -1,4 +1,4 @@
-/* One table of hints: what is told of a word of POV-Ray's says what does it here, or that it may go. */
+/* One table of hints: for a word of POV-Ray's, what replaces it here, or that it can be left out. */
 #include "language/hints.h"
 
 #include <stdbool.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 struct hint {
-  const char *words; /* with one blank between them */
+  const char *words; /* separated by one blank */
   bool shape;
   const char *text; /* or NULL */
 };
@@ -69,7 +69,7 @@ static const struct hint HINTS[] = {
   {"#debug #warning #error #statistics #render", false, "leave it out"},
 };
 
-/* Whether the list holds that very word. */
+/* Whether the list contains that very word. */
 static bool holds(const char *list, const char *word, size_t length)
 {
   while (*list != '\0') {

@@ -1,9 +1,9 @@
-/* Where included files are. */
+/* Finds included files. */
 #include "language/include_path.h"
 
 #include <string.h>
 
-/* What may stand behind the name, in the order in which it is looked for, up to NULL. */
+/* The endings to try behind the name, in order, up to NULL. */
 static const char *const *endings_of(const char *name, size_t length)
 {
   static const char *const as_it_is[] = {"", NULL}, *const longer_first[] = {".inc", ".INC", "", NULL};
@@ -11,13 +11,13 @@ static const char *const *endings_of(const char *name, size_t length)
   return strncmp(end, ".inc", 4) == 0 || strncmp(end, ".INC", 4) == 0 ? as_it_is : longer_first;
 }
 
-/* A file name of an #include, and what is looked for behind it. */
+/* A file name of an #include, and the ending to try behind it. */
 struct wanted {
   const char *name, *ending;
   size_t length;
 };
 
-/* Its path in a folder, which is folder[0 .. length-1] with or without a slash behind it. */
+/* The file's path in a folder, which is folder[0 .. length-1] with or without a final slash. */
 static char *path_in(struct arena *arena, const char *folder, size_t folder_length, const struct wanted *file)
 {
   const size_t before = file->name[0] == '/' ? 0 : folder_length, ending = strlen(file->ending);
@@ -31,7 +31,7 @@ static char *path_in(struct arena *arena, const char *folder, size_t folder_leng
   return path;
 }
 
-/* The folder of a file, slash included. */
+/* The length of a file's folder in its name, slash included. */
 static size_t folder_length(const struct source *source)
 {
   const char *slash = strrchr(source->name, '/');

@@ -1,4 +1,4 @@
-/* Reading: from a file or text through the grammar to a scene. */
+/* Reads a file or text through the grammar into a scene. */
 #include "language/language.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 static const struct place NOWHERE = {NULL, 0, 0};
 
-/* One reading: what stands behind the pointers of its state. */
+/* One reading: its state, and what that points to. */
 struct reading {
   struct language language;
   struct symbols symbols;
@@ -61,7 +61,7 @@ static void reading_destroy(struct reading *r)
   arena_destroy(r->language.arena);
 }
 
-/* What pscn has not was held, and the declaration that holds it has no end. */
+/* Reports the end of the text if what pscn lacks was held in a declaration that has no end. */
 static void tell_end(struct language *language)
 {
   const struct tokens *tokens = language->tokens;
@@ -69,7 +69,7 @@ static void tell_end(struct language *language)
   else language_tell(language, tokens->last.place, "the text ends within a declaration");
 }
 
-/* Runs the grammar over a source, which is taken over; NULL where there was no memory for one. */
+/* Runs the grammar over a source, which it takes over; NULL if there was no memory for one. */
 static enum status parse(struct reading *r, struct source *source)
 {
   const size_t before = r->language.diagnostics->error_count;
@@ -113,7 +113,7 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
   return status;
 }
 
-/* --solver and --tolerance. */
+/* Applies --solver and --tolerance. */
 static enum status override(struct scene *scene, const struct language_settings *settings,
                             struct diagnostics *diagnostics)
 {
@@ -133,7 +133,7 @@ static enum status override(struct scene *scene, const struct language_settings 
   return STATUS_OK;
 }
 
-/* Ends a reading. One that ended for want of memory has not said so itself. */
+/* Ends a reading. If it ran out of memory, this has not been reported yet. */
 static void finish(struct reading *r, enum status status)
 {
   struct diagnostics *diagnostics = r->language.diagnostics;

@@ -1,4 +1,4 @@
-/* What macros declare. */
+/* The names that macros declare. */
 #include "language/macros.h"
 
 #include <string.h>
@@ -6,8 +6,8 @@
 #include "language/scan.h"
 #include "language/sources.h"
 
-/* So many different words of a macro are looked at, and so many in all at its calls: a second's work. Of what has more
- * it is told that it cannot be passed over. */
+/* The most different words of a macro that are examined, and the most words at all calls: a second's work. A macro with
+ * more is reported as one that cannot be skipped. */
 enum { MOST_WORDS = 250, MOST_FOLLOWED = 10 * 1000 * 1000 };
 
 enum macro_role { ROLE_PARAMETER, ROLE_LOCAL, ROLE_DECLARED, ROLE_CALLED };
@@ -22,12 +22,12 @@ struct macro_word {
 struct macro {
   struct macro_word *words;
   size_t count;
-  bool lasting; /* it may do what no names tell of */
-  size_t call;  /* the last one that came to it */
+  bool lasting; /* it may do more than its names tell */
+  size_t call;  /* the last call that came to it */
   /* while it is read: */
-  bool headed; /* its parameters have been */
+  bool headed; /* its parameters have been read */
   struct naming naming;
-  struct name called; /* the word before, which is a call's name where a ( follows; its text is NULL for none */
+  struct name called; /* the word before, the name of a call if a ( follows; its text is NULL for none */
 };
 
 struct macro *macro_begin(struct language *language) { return language_alloc(language, sizeof(struct macro)); }
@@ -37,7 +37,7 @@ static void add_word(struct language *language, struct macro *macro, enum macro_
   if (language->ended_early) return;
   for (const struct macro_word *w = macro->words; w; w = w->next) {
     if (w->length != name->length || memcmp(w->text, name->text, w->length) != 0) continue;
-    /* what is handed over by its name is changed by that of the parameter */
+    /* a declaration of the parameter changes what was passed by its name */
     if (role == ROLE_DECLARED && w->role == ROLE_PARAMETER) macro->lasting = true;
     if (w->role == role || (role == ROLE_DECLARED && w->role != ROLE_CALLED)) return;
   }

@@ -6,17 +6,18 @@
 
 #include "language/sources.h"
 
-/* Patches of one scene: what fits in the memory of a large machine. */
+/* Patches of one scene: as many as fit in the memory of a large machine. */
 #define MAX_PATCHES ((size_t)50 * 1000 * 1000)
 
-/* What one patch more takes until rays can be traced: its net, its frame, its boxes. Of copies 1,280 bytes from 65,536 to
- * 262,144 of them and 1,457 from there to 1,048,576; of as many different patches 1,000. The leaves that fewer patches are
- * cut into come on top, 1.3 KB each: in all 350 MB, or 700 where `split` or the bending of patches asks for more (model.c). */
+/* The memory that one more patch takes until rays can be traced: its net, its frame, its boxes. A copy takes 1,280
+ * bytes if there are 65,536 to 262,144 of them, and 1,457 from there to 1,048,576; one of as many different patches
+ * takes 1,000. The leaves that fewer patches are cut into are extra, 1.3 KB each: in all 350 MB, or 700 where `split`
+ * or the bending of patches asks for more (model.c). */
 #define PATCH_BYTES ((size_t)1500)
 
 enum {
   PATCH_POINTS = 16,
-  MAX_STEPS = 16 /* POV-Ray halves a patch so many times in each direction */
+  MAX_STEPS = 16 /* POV-Ray halves a patch at most this often in each direction */
 };
 
 static struct open_node *open_node(struct language *language, struct span place)
@@ -29,7 +30,7 @@ static struct open_node *open_node(struct language *language, struct span place)
   return objects->open = open;
 }
 
-/* Its memory is the next one's; not that which stands in for memory that there is not. */
+/* Its memory is reused for the next node, unless it is the spare block. */
 struct node *node_end(struct language *language, struct span brace)
 {
   struct objects *objects = language->objects;
@@ -128,7 +129,7 @@ void patch_end(struct language *language)
 
 /* ---- unions ---- */
 
-/* Patches are counted, never built, until all text has been read. */
+/* Patches are counted, and not built, until all text has been read. */
 static void count_patches(struct language *language, const struct node *parent, struct span place)
 {
   char text[100];
@@ -140,7 +141,8 @@ static void count_patches(struct language *language, const struct node *parent, 
   language_limit(language, place, text);
 }
 
-/* What holds no patch is not listed: copies of the parent, which may be many, would each be looked through for nothing. */
+/* A child without patches is not listed: each copy of the parent, of which there may be many, would search it in
+ * vain. */
 static void add_child(struct language *language, struct open_node *open, struct node *child)
 {
   const struct objects *objects = language->objects;
@@ -208,7 +210,7 @@ void copy_named(struct language *language, struct span place)
     language->objects->copies++;
     take_object(language, place, symbol->object);
   }
-  language->objects->open->has_object = true; /* it was meant to be */
+  language->objects->open->has_object = true; /* it was meant to have one */
 }
 
 void copy_modified(struct language *language, struct span place)
@@ -236,7 +238,7 @@ void declare_object(struct language *language, struct declaration *declaration, 
 
 /* ---- modifiers ---- */
 
-/* Copies share transforms and textures, so a changed one is a new one. */
+/* Copies share transforms and textures, so a change makes a new one. */
 void node_transform(struct language *language, const struct transform *transform)
 {
   struct open_node *open = language->objects->open;
@@ -257,6 +259,6 @@ void node_texture(struct language *language, struct texture *texture)
   struct node *node = &language->objects->open->node;
   struct texture all = node->texture ? *node->texture : *language->texture_default;
   texture_apply(&all, texture);
-  *texture = all; /* it is nobody else's */
+  *texture = all; /* not shared */
   node->texture = texture;
 }

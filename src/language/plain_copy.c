@@ -1,4 +1,5 @@
-/* Scene text without solver statements, found by the language's own scanner: comments and strings are left alone. */
+/* Scene text without solver statements. The language's own scanner finds them, so comments and strings are left
+ * alone. */
 #include "language/plain_copy.h"
 
 #include <errno.h>
@@ -13,7 +14,7 @@
 enum {
   MAX_FILES = 10000,
   MAX_NAME = 4096,
-  MOST_KEPT = 250 /* bytes of a file's name: with its number and the - it has the 255 that a file system takes */
+  MOST_KEPT = 250 /* bytes of a file's name: with its number and the -, at most the 255 that a file system takes */
 };
 
 /* The files met so far; [0] is the scene. Each is copied once, wherever it is included from. */
@@ -22,11 +23,11 @@ struct copies {
   struct source **source;
   size_t count, room;
   const char *folder, *name;
-  const char *const *folders; /* where else to look */
+  const char *const *folders; /* more folders to look in */
   const char *reason;
 };
 
-/* A copy being written: text up to `done` stands in the file. */
+/* A copy being written: the text up to `done` is in the file. */
 struct copy {
   struct copies *all;
   const struct source *source;
@@ -47,7 +48,7 @@ static void copy_name(const struct copies *copies, size_t index, char out[MAX_NA
   snprintf(out, MAX_NAME, "%zu-%.*s", index, MOST_KEPT, slash == NULL ? path : slash + 1);
 }
 
-/* Takes a source over. Its index, also where the file is there already; MAX_FILES where there is no room. */
+/* Takes a source over. Returns its index, also if the file is known already; MAX_FILES if there is no room. */
 static size_t add_source(struct copies *copies, struct source *source)
 {
   for (size_t k = 0; k < copies->count; k++) {
@@ -77,20 +78,20 @@ static void put(struct copy *copy, const char *text, size_t length)
   }
 }
 
-/* Writes what stands before byte `end` and has not been written. */
+/* Writes the unwritten text before byte `end`. */
 static void put_until(struct copy *copy, size_t end)
 {
   put(copy, copy->source->text + copy->done, end - copy->done);
   copy->done = end;
 }
 
-/* Writes blanks for what stands before byte `end`, lines kept. */
+/* Writes blanks for it, but keeps its lines. */
 static void blank_until(struct copy *copy, size_t end)
 {
   for (; copy->done < end; copy->done++) put(copy, copy->source->text[copy->done] == '\n' ? "\n" : " ", 1);
 }
 
-/* Reads the file that the language would include, or answers NULL. */
+/* Reads the file that the language would include, or returns NULL. */
 static struct source *read_included(const struct copy *copy, const char *name, size_t length)
 {
   const struct include_folders folders = {copy->all->source[0], copy->source, copy->all->folders};
@@ -102,7 +103,7 @@ static struct source *read_included(const struct copy *copy, const char *name, s
   return source_read(path, INPUT_FILE, &source, &reason) == STATUS_OK ? source : NULL;
 }
 
-/* A file name behind #include. */
+/* Copies a file name behind #include. */
 static void copy_include(struct copy *copy)
 {
   const size_t begin = copy->scan.begin, end = copy->scan.end;
@@ -120,7 +121,7 @@ static void copy_include(struct copy *copy)
   copy->done = end - 1;
 }
 
-/* At the word `solver`: drops it with the solver's name and block. Answers the token behind, or the } of the block. */
+/* At the word `solver`, drops it with its name and block. Returns the token after them, or the } of the block. */
 static int drop_solver(struct copy *copy)
 {
   const size_t begin = copy->scan.begin;
@@ -190,7 +191,7 @@ enum status plain_copy(const char *path, const char *const *folders, const char 
   enum status status = copies.arena == NULL ? STATUS_LIMIT : STATUS_OK;
   if (status == STATUS_OK) status = source_read(path, INPUT_FILE_OR_PIPE, &scene, &copies.reason);
   if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES) status = STATUS_LIMIT;
-  for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying adds what is included */
+  for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying a file adds those it includes */
     status = copy_file(&copies, k);
   for (size_t k = 0; k < copies.count; k++) source_destroy(copies.source[k]);
   memory_free(copies.source);

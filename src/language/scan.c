@@ -1,4 +1,4 @@
-/* What is in tokens. */
+/* The contents of tokens. */
 #include "language/scan.h"
 
 #include "base/number.h"
@@ -26,7 +26,7 @@ void scan_numbers(struct scan *scan, const char *text, size_t length, int count)
   }
 }
 
-/* Behind the comment that text begins with; `length` where it has no end. */
+/* The end of the comment that text begins with; `length` if it is not closed. */
 static size_t comment_end(const char *text, size_t length)
 {
   size_t at = 2;

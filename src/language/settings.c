@@ -5,12 +5,12 @@
 
 #include "language/sources.h"
 
-/* The versions of POV-Ray's language that a scene may ask for; it is read as the one whose gamma is ours. */
-#define VERSION_LOW 1.5 /* before it there were no binary operators */
+/* The versions of POV-Ray's language that a scene may ask for. It is read as the version whose gamma is ours. */
+#define VERSION_LOW 1.5 /* older ones had no binary operators */
 #define VERSION_READ 3.7
 #define VERSION_HIGH 3.8
 
-/* POV-Ray's largest; here there is nothing to trace on. */
+/* POV-Ray's largest. Here there are no further levels to trace. */
 enum { MAX_TRACE_LEVEL = 256 };
 
 void settings_default(struct settings *out)
@@ -24,7 +24,7 @@ void language_version(struct language *language, const struct value *value)
 {
   double *version = &language->settings->version;
   const bool said = value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false, version);
-  *version = floor(100 * *version + 0.5) / 100; /* POV-Ray knows no more of it */
+  *version = floor(100 * *version + 0.5) / 100; /* POV-Ray keeps two decimals */
   if (said && *version < VERSION_READ && language->symbols->depth == 0) {
     diagnostics_warning(language->diagnostics, sources_place(language, value->place),
                         "this is read as version 3.7: colours are linear, whatever gamma the older one had");
@@ -76,7 +76,7 @@ void background_end(struct language *language)
 
 /* ---- light sources ---- */
 
-/* A light whose colour is not said is black, as in POV-Ray. */
+/* A light without a colour is black, as in POV-Ray. */
 void light_begin(struct language *language, struct span place)
 {
   struct settings *settings = language->settings;

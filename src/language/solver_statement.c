@@ -8,7 +8,7 @@
 
 enum { MOST_NAMES = 64, MOST_LISTED = 8 };
 
-/* Ends the message on an unknown word with a guess, or with what there is, unless that is much. */
+/* Reports an unknown word, with a guess, or with a list of the names there are unless they are many. */
 static void tell_unknown(struct language *language, const char *what, const struct name *word,
                          const char *const names[], size_t count)
 {

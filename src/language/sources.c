@@ -10,21 +10,21 @@
 
 enum {
   MAX_INCLUDE_DEPTH = 32,
-  MAX_SOURCES = 10000 /* files that include each other without a cycle can still ask for any number of reads */
+  MAX_SOURCES = 10000 /* even without a cycle, files can ask for any number of reads */
 };
 
 __extension__ typedef unsigned __int128 hash_type;
 
-/* Every source read stays until the end: places point into their texts. */
+/* Every source that was read stays until the end, because places point into their texts. */
 struct source_list {
   struct table_entry entry; /* of the first source of its file */
   struct source_list *next;
   struct source *source;
-  uint32_t base;  /* of the spans in it */
+  uint32_t base;  /* where its spans begin */
   hash_type hash; /* of its text */
 };
 
-/* FNV-1a of 128 bits (Fowler, Noll, Vo; RFC 9923), of eight bytes at once, whose upper half is folded down. */
+/* FNV-1a of 128 bits (Fowler, Noll, Vo; RFC 9923), on eight bytes at once, with the upper half folded down. */
 static hash_type hash_add(hash_type hash, uint64_t bytes)
 {
   const hash_type prime = ((hash_type)1 << 88) + 0x13b;
@@ -51,7 +51,7 @@ static hash_type hash_text(const struct source *source)
   return hash;
 }
 
-/* So that it is found when it is included again, and destroyed at the end. */
+/* Remembers a source, so that it is found when included again, and destroyed at the end. */
 static bool remember(struct language *language, struct source *source)
 {
   struct sources *sources = language->sources;
@@ -90,7 +90,7 @@ bool sources_open(struct language *language, struct source *source)
   return true;
 }
 
-/* Of all files, the last one read first. */
+/* The hash of all files, from the last one read to the first. */
 static void hash_texts(const struct sources *sources, char out[SCENE_HASH_SIZE])
 {
   hash_type hash = hash_begin((uint64_t)sources->count);
@@ -133,7 +133,7 @@ struct name sources_name(const struct language *language, struct span span)
   const struct frame *frame = language->sources->frame;
   const struct source *source = frame->source;
   size_t begin = span_begin(span) - frame->base;
-  if (!sources_has(language, span)) { /* the last one of an included file */
+  if (!sources_has(language, span)) { /* the last word of an included file */
     const struct place place = sources_place(language, span);
     source = place.source, begin = place.begin;
   }
@@ -169,7 +169,8 @@ static bool same_file(const struct source *a, const struct source *b)
   return a->device == b->device && a->inode == b->inode;
 }
 
-/* The names from the outermost reading of the file to the one that includes it again, as "a.pscn -> b.inc -> ". */
+/* Reports a cycle: the names from the file's outermost reading to the one that includes it again, as in
+ * "a.pscn -> b.inc -> ". */
 static void tell_cycle(struct language *language, struct span place, const struct source *again)
 {
   const struct frame *chain[MAX_INCLUDE_DEPTH + 1];
@@ -211,7 +212,7 @@ static const struct source *scene_source(const struct sources *sources)
   return frame->source;
 }
 
-/* Reads the file named at `place`, quotes included, or tells an error and answers NULL. */
+/* Reads the file named at `place`, quotes included. Returns NULL after reporting an error. */
 static struct source *read_included(struct language *language, struct span place)
 {
   const struct name quoted = sources_name(language, place);
@@ -281,7 +282,8 @@ void sources_include(struct language *language)
   }
   struct source *source = read_included(language, place);
   if (!source) return;
-  if (source->length >= UINT32_MAX - language->sources->end) { /* a minute's reading, and all that a span can say */
+  if (source->length >= UINT32_MAX - language->sources->end) { /* a minute's reading, and the most that spans can
+                                                                  express */
     language_limit(language, place, "more than 4 GiB of text are included");
     source_destroy(source);
     return;

@@ -8,7 +8,7 @@
 
 #include "language/sources.h"
 
-/* More than these of one declaration are not told. */
+/* At most this many errors of one declaration are reported. */
 enum { MOST_HELD = 20 };
 
 bool language_holds_enough(const struct language *language)
@@ -16,7 +16,7 @@ bool language_holds_enough(const struct language *language)
   return language->declaration && language->declaration->held_count >= MOST_HELD;
 }
 
-/* Where to hold one more, or NULL where it is only counted. */
+/* The place for one more held error, or NULL if it is only counted. */
 static struct held *hold(struct language *language, struct span place)
 {
   struct declaration *declaration = language->declaration;
@@ -107,8 +107,8 @@ bool language_afford(struct language *language, size_t bytes)
   return !language->unaffordable;
 }
 
-/* Where memory is short a spare block stands in, and reading ends at the next token; the few blocks wanted until
- * then do not overlap. */
+/* If memory is short, a spare block stands in, and reading ends at the next token. The few blocks needed until then do
+ * not overlap. */
 void *language_alloc(struct language *language, size_t size)
 {
   void *memory = language_afford(language, size) ? arena_alloc(language->arena, 1, size) : NULL;

@@ -7,10 +7,10 @@
 #include "language/sources.h"
 #include "language/tokens.h"
 
-/* The first version of which POV-Ray declares a colour's component as a number. */
+/* From this version on, POV-Ray declares a colour's component as a number. */
 #define VERSION_COLOURS 3.5
 
-/* The innermost of that name; with `depth` at least 0, only that of that depth. */
+/* The innermost symbol of that name; if `depth` is at least 0, only one of that depth. */
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
 {
   struct symbol *best = NULL;
@@ -40,7 +40,7 @@ static struct symbol *add(struct language *language, const char *name, size_t le
 
 void symbols_enter(struct symbols *symbols) { symbols->depth++; }
 
-/* What has named it keeps what it stands for. */
+/* Undeclares a name. Values that were made with it keep their meaning. */
 static void forget(struct symbols *symbols, struct symbol *symbol)
 {
   if (!symbol->gone) table_remove(&symbols->table, &symbol->entry);
@@ -71,8 +71,8 @@ bool symbol_known(struct language *language, const struct name *name)
 
 /* ---- what is told of names ---- */
 
-/* One reading looks for guesses among so many names and no more: half a second's work, where all of them are long. And
- * it guesses for so many unknown words that a declaration holds, which are mostly never told. */
+/* One reading considers so many names for guesses: half a second's work if all are long. Of the unknown words that
+ * declarations hold, most of which are never reported, it guesses for so many. */
 enum { MOST_CONSIDERED = 100000, MOST_GUESSED = 1000 };
 
 void guess_symbols(struct guess *guess, struct language *language)
@@ -83,7 +83,7 @@ void guess_symbols(struct guess *guess, struct language *language)
     if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN && !s->gone) guess_consider(guess, s->name, s->length);
 }
 
-/* Counts a name that is missing, and answers how often it was before. */
+/* Counts a name that is missing. Returns how often it was missing before. */
 static size_t count_missed(struct language *language, const struct name *name)
 {
   struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
@@ -100,15 +100,15 @@ static size_t count_missed(struct language *language, const struct name *name)
   return symbol->missed->times++;
 }
 
-/* A name that is missing in many places is told once; how often is told at the end. What a declaration holds is not
- * counted: it may never be told. */
+/* A name that is missing in many places is reported once; how often it is missing is reported at the end. What a
+ * declaration holds is not counted, because it may never be reported. */
 static void tell_unknown(struct language *language, const struct name *name, const char *wanted)
 {
   const bool held = language_holds(language);
   language->unknown = name->place;
   if (!held && count_missed(language, name) > 0) return;
   struct guess guess = guess_begin(name->text, name->length);
-  if (!diagnostics_full(language->diagnostics) && /* else nobody would read the guess */
+  if (!diagnostics_full(language->diagnostics) && /* else the guess would not be read */
       !(held && language->symbols->guessed++ >= MOST_GUESSED)) {
     guess_symbols(&guess, language);
     guess_keywords(&guess);
@@ -131,7 +131,8 @@ void symbols_tell_missed(struct language *language)
   }
 }
 
-/* All that its declarations held is told at the first use; other declarations hold it with what they are of. */
+/* Reports, at the first use of a foreign name, all that its declarations hold. A declaration that uses it holds it
+ * instead. */
 static void tell_foreign(struct language *language, const struct name *name, struct symbol *symbol)
 {
   if (language->declaration) {
@@ -181,9 +182,9 @@ const struct symbol *symbol_wanted(struct language *language, const struct name 
 
 /* ---- declarations ---- */
 
-/* As in POV-Ray: #local writes to a name of this file, #declare to the innermost there is, or else to one that belongs
- * to all. Which one is settled before the value is read: a declaration within the first one of its own name hides
- * that, within a later one the outer one is the last to write. */
+/* As in POV-Ray, #local writes to a name of this file, and #declare to the innermost one there is, or else to a global
+ * one. Which one is decided before the value is read. A declaration within the first one of its own name hides that
+ * one; within a later one, the outer declaration is the last to write. */
 static struct symbol *symbol_begin(struct language *language, const struct name *name, bool local)
 {
   const int depth = local ? language->symbols->depth : -1;
@@ -200,7 +201,7 @@ int naming_next(struct naming *naming, int token, struct span place)
       token != PSCN_TOKEN_LOCAL)
     return token == PSCN_TOKEN_WORD ? PSCN_TOKEN_DECLARE : 0;
   switch (token) {
-  case PSCN_TOKEN_DEPRECATED: /* these may stand before the name */
+  case PSCN_TOKEN_DEPRECATED: /* may come before the name */
   case PSCN_TOKEN_ONCE:
   case PSCN_TOKEN_STRING:
   case '(': return 0;
@@ -230,7 +231,7 @@ void declare_unseen(struct language *language, struct span place, const struct s
   declare_end(language, declaration);
 }
 
-/* POV-Ray loses such a name, or breaks down. */
+/* POV-Ray loses such a name, or crashes. */
 void declare_left_open(struct language *language, struct span end)
 {
   for (const struct declaration *d = language->declaration; d; d = d->outer) {
@@ -238,7 +239,7 @@ void declare_left_open(struct language *language, struct span end)
     language_tell(language, end, "the file ends within the declaration of its #local '%.*s'", (int)d->symbol->length,
                   d->symbol->name);
   }
-  const struct declaration *layered = language->layered; /* it looks for more layers */
+  const struct declaration *layered = language->layered; /* more layers are expected */
   if (layered && layered->symbol->depth >= language->symbols->depth)
     language_tell(language, end, "the file ends before the ; of its #local '%.*s'", (int)layered->symbol->length,
                   layered->symbol->name);
@@ -288,7 +289,7 @@ static bool is_of_name(char c)
   return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-/* Whether the text at a place begins with the name of a colour. */
+/* Whether the text at a place begins with a colour's name. */
 static bool begins_with_colour(const struct language *language, struct span place)
 {
   struct name name = sources_name(language, place);
@@ -298,7 +299,7 @@ static bool begins_with_colour(const struct language *language, struct span plac
   return symbol && symbol->kind == SYMBOL_VALUE && symbol->value.kind == VALUE_COLOUR;
 }
 
-/* A value that is but the name of something else declares another name for it. */
+/* A value that is only the name of something else declares another name for that. */
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value)
 {
   if (value->bare)
@@ -314,7 +315,7 @@ void declare_value(struct language *language, struct declaration *declaration, c
   if (!symbol) return;
   if (value->kind == VALUE_NAMED) {
     symbol->kind = value->symbol->kind;
-    symbol->value = value->symbol->value; /* the whole union */
+    symbol->value = value->symbol->value; /* copies the whole union */
     return;
   }
   symbol_set(symbol, value);
@@ -342,7 +343,7 @@ void declare_macro(struct language *language, const struct name *name, struct ma
 void declare_lost(struct language *language, const struct name *name)
 {
   const struct symbol *known = find(language->symbols, name->text, name->length, -1);
-  if (known && known->kind == SYMBOL_FOREIGN && known->lost) return; /* by an earlier call, say */
+  if (known && known->kind == SYMBOL_FOREIGN && known->lost) return; /* as by an earlier call */
   struct declaration *declaration = begin(language, name, false);
   language_foreign(language, name->place, "'%.*s' is declared by this macro, which is passed over", (int)name->length,
                    name->text);

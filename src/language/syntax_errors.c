@@ -1,4 +1,4 @@
-/* The words of syntax errors. */
+/* The text of syntax errors. */
 #include "language/syntax_errors.h"
 
 #include <stdio.h>
@@ -18,8 +18,8 @@ static bool contains(const char *const names[], int count, const char *wanted)
   return false;
 }
 
-/* Says in few words what could have stood there: a value instead of all that may begin one; no operators, commas and
- * directives, which may stand nearly everywhere. Empty where still too much is left to be of help. */
+/* Lists briefly what could have stood there: a value, instead of all that may begin one; no operators, commas and
+ * directives, which may stand nearly anywhere. Empty if what remains is still too much to help. */
 static void list_expected(const char *const expected[], int count, char *out, size_t size)
 {
   enum { MOST_LISTED = 10 };
@@ -39,7 +39,7 @@ static void list_expected(const char *const expected[], int count, char *out, si
     if (value && (contains(in_values, COUNT(in_values), expected[k]) || strcmp(expected[k], "a name") == 0)) continue;
     if (count > 1 && contains(anywhere, COUNT(anywhere), expected[k])) continue;
     if (part && contains(parts, COUNT(parts), expected[k])) continue;
-    if (objects && strcmp(expected[k], "solver") == 0) continue; /* understood there, but never right */
+    if (objects && strcmp(expected[k], "solver") == 0) continue; /* parsed there, but never right */
     if (listed == MOST_LISTED) return;
     list[listed++] = expected[k];
   }
@@ -48,7 +48,7 @@ static void list_expected(const char *const expected[], int count, char *out, si
   words_list(list, (size_t)listed, out + used, size - (size_t)used);
 }
 
-/* The nearest of what the grammar could have gone on with, or else of all words and names. */
+/* Guesses the nearest word that the grammar expected, or else the nearest of all words and names. */
 static struct guess guess_meant(struct language *language, const char *word, size_t length,
                                 const char *const expected[], int count)
 {
@@ -63,10 +63,10 @@ static struct guess guess_meant(struct language *language, const char *word, siz
   return guess;
 }
 
-/* So much of it is shown. */
+/* How many of its characters are shown. */
 static int shown(const struct name *name) { return name->length < LONGEST_SHOWN ? (int)name->length : LONGEST_SHOWN; }
 
-/* A declared name where none may stand: that of an object or a macro, say, without `object` around it. */
+/* Reports a declared name where none may stand, such as that of an object or a macro without `object` around it. */
 static void tell_declared(struct language *language, const struct name *name, const struct symbol *symbol, bool objects,
                           const char *list)
 {
@@ -77,8 +77,8 @@ static void tell_declared(struct language *language, const struct name *name, co
   else language_error(language, name->place, "unexpected name '%.*s'%s", shown(name), name->text, list);
 }
 
-/* What is told of a statement's word within a block, instead of what could have stood there: the block's brace is mostly
- * missing. */
+/* The message for a statement's word within a block, instead of a list of what was expected: mostly, the block's brace
+ * is missing. */
 static const char *misplaced(const struct tokens *tokens, const char *text)
 {
   const int token = tokens->last.token;
@@ -89,7 +89,7 @@ static const char *misplaced(const struct tokens *tokens, const char *text)
 
 static bool same_place(struct span a, struct span b) { return span_begin(a) > 0 && span_begin(a) == span_begin(b); }
 
-/* What POV-Ray declares and pscn has only where it is meant. */
+/* Whether a declaration begins with something that POV-Ray can declare and pscn cannot. */
 static bool begins_undeclarable(const struct language *language)
 {
   const struct tokens *tokens = language->tokens;
@@ -99,7 +99,7 @@ static bool begins_undeclarable(const struct language *language)
   return span_begin(tokens->previous) > 0 && sources_name(language, tokens->previous).text[0] == '=';
 }
 
-/* A word that may not stand here, or that nobody knows. */
+/* Reports a word that may not stand here, or that is unknown. */
 static void tell_word(struct language *language, const struct name *word, const char *const expected[], int count,
                       const char *list)
 {
@@ -115,10 +115,10 @@ static void tell_word(struct language *language, const struct name *word, const 
   else language_error(language, word->place, "unknown word '%.*s'%s", shown(word), word->text, list);
 }
 
-/* A sign, a number or a string that may not stand here, or the end of the text. */
+/* Reports a sign, a number or a string that may not stand here, or the end of the text. */
 static void tell_unexpected(struct language *language, const struct name *text, const char *list)
 {
-  const bool outlives = language->tokens->last.token == PSCN_TOKEN_DEFAULT; /* its declaration, used or not */
+  const bool outlives = language->tokens->last.token == PSCN_TOKEN_DEFAULT; /* outlives its declaration, used or not */
   if (text->length == 0) language_tell(language, text->place, "the text ends here%s", list);
   else
     (outlives ? language_tell : language_error)(language, text->place, "unexpected '%.*s'%s", shown(text), text->text,
@@ -129,7 +129,7 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
 {
   struct tokens *tokens = language->tokens;
   const struct span place = tokens->last.place;
-  /* What follows a word just told to be unknown fits the word that was meant. */
+  /* What follows a word just reported as unknown fits the word that was meant. */
   const bool follows = same_place(tokens->previous, language->unknown);
   if (same_place(place, tokens->told) || follows || language->ended_early) return;
   tokens->told = place;
@@ -147,7 +147,7 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
   if (begins_undeclarable(language)) {
     language_foreign(language, place, "%.*s cannot be declared in pscn; it stands where it is meant", shown(&name),
                      name.text);
-    tokens->recovered = place; /* it begins no statement of its own */
+    tokens->recovered = place; /* it does not begin a statement of its own */
     return;
   }
   char list[300] = "";

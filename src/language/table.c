@@ -1,18 +1,18 @@
-/* Open addressing with linear probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L): one slot for each
- * hash, from which the entries of that hash hang. So a lookup meets neighbours in memory, and mostly no entry. */
+/* Open addressing with linear probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). There is one slot
+ * for each hash; the entries of that hash hang from it. So a lookup meets neighbours in memory, and mostly no entry. */
 #include "language/table.h"
 
 #include <string.h>
 #include <sys/random.h>
 
-enum { FIRST_SIZE = 64, FULL = 4 /* grows where less than 1 of so many slots is free: a miss looks at 8.5 then */ };
+enum { FIRST_SIZE = 64, FULL = 4 /* grows if less than 1 of so many slots is free; a miss then looks at 8.5 */ };
 
 __extension__ typedef unsigned __int128 product;
 
 /* A Mersenne prime. */
 #define PRIME ((UINT64_C(1) << 61) - 1)
 
-/* Where there are no random numbers a key that is as good for texts that nobody made to be slow. */
+/* If there are no random numbers, uses a key that is as good for texts not made to be slow. */
 static uint64_t choose_key(void)
 {
   uint64_t key;
@@ -20,9 +20,9 @@ static uint64_t choose_key(void)
   return key % (PRIME - 1) + 1;
 }
 
-/* The bytes, seven at once, and their number are the coefficients of a polynomial, whose value at the key is the hash
- * (Carter and Wegman, Universal classes of hash functions, 1979): any two texts of up to n bytes have one hash for
- * n / 7 + 1 of the 2^61 keys at most. Never 0. */
+/* The bytes, seven at once, and their number are the coefficients of a polynomial; its value at the key is the hash
+ * (Carter and Wegman, Universal classes of hash functions, 1979). Any two texts of up to n bytes have the same hash for
+ * at most n / 7 + 1 of the 2^61 keys. Never 0. */
 static uint64_t hash_of(uint64_t key, const void *bytes, size_t length)
 {
   const unsigned char *byte = bytes;
@@ -42,7 +42,7 @@ static uint64_t hash_of(uint64_t key, const void *bytes, size_t length)
   return hash + length + 1;
 }
 
-/* The slot of that hash, or the free one where it would be. */
+/* The slot of that hash, or the free one for it. */
 static struct table_slot *slot_of(const struct table *table, uint64_t hash)
 {
   size_t k = hash & (table->size - 1);

@@ -65,7 +65,7 @@ static void apply_named(struct language *language, struct span place, const stru
   texture_apply(texture, symbol->texture);
 }
 
-/* A texture may begin with a declared texture, pigment or finish; a pigment and a finish with one of their own. */
+/* A texture may begin with a declared texture, pigment or finish; a pigment or a finish with one of its own kind. */
 void texture_named(struct language *language, struct span place)
 {
   const struct name name = sources_name(language, place);
@@ -121,7 +121,7 @@ void finish_number(struct language *language, int part, const struct value *valu
     language_error(language, value->place, "a finish's numbers must be from -3.4e38 to 3.4e38");
     return;
   }
-  if (part == PART_ROUGHNESS && !((float)x > 0)) { /* POV-Ray's are floats, and it passes over a 0 */
+  if (part == PART_ROUGHNESS && !((float)x > 0)) { /* POV-Ray's are floats, and it ignores a 0 */
     language_error(language, value->place, "roughness must be above 0");
     return;
   }
@@ -129,7 +129,7 @@ void finish_number(struct language *language, int part, const struct value *valu
   texture->set |= 1u << part;
 }
 
-/* A declared block is whole: what it leaves open has the default. */
+/* A declared block is complete: what it does not set has the default. */
 void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture)
 {
   struct symbol *symbol = declare_end(language, declaration);

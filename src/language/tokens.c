@@ -16,7 +16,7 @@ static void tell_too_large(struct language *language)
 
 /* ---- the stream ---- */
 
-/* A token of a solver statement, from the word `solver` on. */
+/* Follows a solver statement, from the word `solver` on. Returns the token as it counts there. */
 static int solver_token(struct tokens *tokens, int token)
 {
   switch (tokens->solver_part) {
@@ -35,7 +35,7 @@ static int solver_token(struct tokens *tokens, int token)
   return scan_is_word(token) ? PSCN_TOKEN_WORD : token;
 }
 
-/* The next token that is not passed over; 0 also where reading must end early. Most are the grammar's. */
+/* The next token that is not skipped; 0 also where reading must end early. Most are the grammar's. */
 static int scan(struct language *language)
 {
   const bool scene = !language->tokens->solver_only;
@@ -54,7 +54,7 @@ static void open_brace(struct language *language, struct span place)
   if (++tokens->depth > MAX_NESTING) language_limit(language, place, "blocks are nested more than 200 deep");
 }
 
-/* What is handed out before the text: which grammar it has, and of the text of a solver the word that it follows. */
+/* The tokens given before the text: which grammar it has, and for the text of a solver the word that it follows. */
 static int make_up(struct tokens *tokens)
 {
   tokens->last.place = span_of(1, 1);
@@ -62,7 +62,7 @@ static int make_up(struct tokens *tokens)
   return solver_token(tokens, PSCN_TOKEN_SOLVER);
 }
 
-/* Behind a directive of files: their names, and those that are read from them, stand for what nobody knows here. */
+/* Behind a directive of files: their names, and names read from them, stand for values that are unknown here. */
 static void pass_files(struct language *language, int directive)
 {
   if (!language->declaration && !language->tokens->skipping) return;
@@ -75,11 +75,11 @@ static void pass_files(struct language *language, int directive)
   }
 }
 
-/* What stands for a token that is not the grammar's, once that has been told. */
+/* The token that stands in for one that is not the grammar's, which has been reported. */
 static int stand_in(struct language *language, int token)
 {
   struct tokens *tokens = language->tokens;
-  if (token == TOKEN_SECOND_POINT || token == TOKEN_OPEN_EXPONENT) { /* whose e POV-Ray takes for part of the number */
+  if (token == TOKEN_SECOND_POINT || token == TOKEN_OPEN_EXPONENT) { /* POV-Ray takes the e for part of the number */
     const char *wrong = token == TOKEN_SECOND_POINT ? "a number has one point" : "the exponent of a number has digits";
     if (!tokens->skipping) language_error(language, tokens->last.place, "%s", wrong);
     return PSCN_TOKEN_NUMBER;
@@ -109,7 +109,7 @@ int tokens_next(struct language *language)
   if (tokens->solver_part != SOLVER_OUTSIDE || token == PSCN_TOKEN_SOLVER) token = solver_token(tokens, token);
   last->token = token;
   last->depth = tokens->depth;
-  const bool passed = language->declaration || tokens->skipping; /* perhaps: a macro called elsewhere is an error */
+  const bool passed = language->declaration || tokens->skipping; /* possibly; a macro called elsewhere is an error */
   if (token == PSCN_TOKEN_WORD && tokens->solver_part == SOLVER_OUTSIDE && passed) macro_called(language, last->place);
   if (token == '{') open_brace(language, last->place);
   else if (token == '}' && tokens->depth > 0) tokens->depth--;
@@ -134,11 +134,11 @@ static bool recover(struct language *language)
     if (token == 0) return false;
     if (token == '(' && !first) parentheses++;
     if (last->depth != block || parentheses > 0) declare_passed(language, token, last->place, &naming);
-    if (parentheses > 0) { /* of a function of POV-Ray's: its arguments may be anything */
+    if (parentheses > 0) { /* of a function of POV-Ray's, whose arguments may be anything */
       parentheses -= token == ')';
       continue;
     }
-    /* What was refused where it stands may begin the next item; refused there too, it is dropped. */
+    /* A token that was refused here may begin the next item; one refused there too is dropped. */
     if (last->depth == block && !(first && twice)) {
       const bool begins = block == 0 ? words_begin_statement(token) : words_begin_item(token);
       const bool in_value = before == '+' || before == '-' || before == '*' || before == '/' || before == ',';
@@ -148,17 +148,17 @@ static bool recover(struct language *language)
         return true;
       }
     }
-    /* A block within what is skipped has ended, or a statement: what comes next is on its own. */
+    /* A block within the skipped text has ended, or a statement. What follows is on its own. */
     if (!first && token == '}' && last->depth == block + 1) {
       tokens->skipping = 0;
-      tokens->last.again = tokens_next(language) != ';'; /* which may end a declaration */
+      tokens->last.again = tokens_next(language) != ';'; /* the ; may end a declaration */
       return true;
     }
     if (token == ';' && last->depth == block && block == 0) return true;
   }
 }
 
-/* What is skipped may hold what means nothing here, as a map of colours does: it is told of once. */
+/* Skipped text may be full of what means nothing here, as a map of colours is. This is reported once. */
 bool tokens_recover(struct language *language)
 {
   language->tokens->skipping = 1 + language->tokens->last.depth;

@@ -5,7 +5,7 @@
 
 static struct double_double dd(double x) { return (struct double_double){x, 0}; }
 
-/* The statement's, as the last one has left it. */
+/* The transform of the statement, as the last one left it. */
 static struct transform *begin(struct language *language, struct span place)
 {
   if (!language->transform) language->transform = language_alloc(language, sizeof *language->transform);
@@ -61,7 +61,7 @@ const struct transform *transform_scale(struct language *language, struct span p
 
 enum { MATRIX_NUMBERS = 12 };
 
-/* POV-Ray's, absolute: a matrix all of whose numbers for one axis are smaller has none for it. */
+/* POV-Ray's absolute limit: a matrix whose numbers for one axis are all smaller has none for it. */
 #define EMPTY 1e-10
 
 struct matrix *matrix_begin(struct language *language, const struct value *first)
@@ -88,7 +88,7 @@ static struct double_double minor(const double m[12], int i, int j)
                 dd_negate(dd_two_product(m[3 * i1 + j2], m[3 * i2 + j1])));
 }
 
-/* Whether POV-Ray takes a column for 0, and a 1 for what stands in the diagonal there. */
+/* Whether POV-Ray takes a column for 0, and then 1 for the number in its diagonal. */
 static bool has_empty_column(const double m[12])
 {
   for (int j = 0; j < 3; j++)
@@ -96,8 +96,8 @@ static bool has_empty_column(const double m[12])
   return false;
 }
 
-/* Whether the determinant is no more than what rounding leaves of a vanishing one: 2^-100 of the size of its terms,
- * a few units of double-double. The rows are scaled first, so that nothing overflows. */
+/* Whether the determinant is no more than what rounding leaves of a vanishing one: 2^-100 of the size of its terms, a
+ * few units of double-double. The rows are scaled first, so that nothing overflows. */
 static bool is_singular(const double matrix[12])
 {
   double m[12], size = 0;

@@ -18,7 +18,7 @@ static struct value *make(struct language *language, enum value_kind kind, struc
   return value;
 }
 
-/* Its memory is the next one's; not that which stands in for memory that there is not. */
+/* Its memory is reused for the next value, unless it is the spare block. */
 struct value *value_last(struct language *language, struct value *value)
 {
   if (language->ended_early) return value;
@@ -49,7 +49,7 @@ struct value *value_axis(struct language *language, int axis, struct span place)
   return value;
 }
 
-/* The same value, which stands there. */
+/* The same value at another place. */
 static struct value *value_moved(struct value *value, struct span place)
 {
   value->place = place;
@@ -68,8 +68,8 @@ static struct value *become_unknown(struct value *value, struct span place)
   return value;
 }
 
-/* Names of objects and textures are told apart where the value is used: a pigment may be named where a colour may
- * stand. */
+/* Names of objects and textures are distinguished where the value is used, because a pigment may be named where a
+ * colour may be. */
 struct value *value_named(struct language *language, struct span place)
 {
   const struct name name = sources_name(language, place);
@@ -89,7 +89,7 @@ struct value *value_named(struct language *language, struct span place)
   return value;
 }
 
-/* Whether it can be reckoned with; if not, that has been told. */
+/* Whether the value can be computed with. If not, this has been reported. */
 static bool usable(struct language *language, const struct value *a, const char *wanted)
 {
   if (a->kind == VALUE_NAMED) symbol_mistaken(language, a->place, a->symbol, wanted);
@@ -106,7 +106,7 @@ static double operate(char op, double p, double q)
   }
 }
 
-/* A colour has five parts in POV-Ray: what happens to the two that say how transparent it is must leave them 0. */
+/* A colour has five parts in POV-Ray. An operation must leave the two that say how transparent it is 0. */
 static bool stays_opaque(struct language *language, char op, const struct value *a, const struct value *b)
 {
   const bool number = a->kind == VALUE_NUMBER || b->kind == VALUE_NUMBER;
@@ -128,16 +128,16 @@ static bool stays_opaque(struct language *language, char op, const struct value 
   return true;
 }
 
-/* Behind a colour POV-Ray wants five parts of all that follows. A number has five; an axis, or a vector by its name, is taken for
- * as many though it has three, and the others are what the numbers before it have left; of other vectors they are 0, by which
- * nothing is to be divided. */
+/* Behind a colour, POV-Ray wants five parts of all that follows. A number has five. An axis, or a named vector, is
+ * taken for five although it has three; the other two are left over from the numbers before it. Those of other vectors
+ * are 0, by which nothing may be divided. */
 static bool result_wide(char op, const struct value *a, const struct value *b)
 {
   if (op == '+' || op == '-') return false;
   return a->wide || (op == '/' ? b->kind == VALUE_VECTOR : a->kind == VALUE_NUMBER && b->open);
 }
 
-/* Vectors and other colours have no transparency, and a product with none has none. */
+/* Vectors and opaque colours have no transparency, nor has a product with one of them. */
 static unsigned result_transparent(char op, const struct value *a, const struct value *b)
 {
   const bool product = op == '*' && a->kind != VALUE_NUMBER && b->kind != VALUE_NUMBER;
@@ -149,7 +149,7 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
 {
   const struct span place = span_join(a->place, b->place);
   value_last(language, b);
-  if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER) { /* as most are */
+  if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER) { /* the usual case */
     const double x = operate(op, a->x[0], b->x[0]);
     if (isfinite(x)) return value_moved(set(a, x, x, x), place);
   }
@@ -191,7 +191,7 @@ struct value *value_alone(struct language *language, struct value *a, struct spa
   return usable(language, a, "a value") ? value_placed(a, place) : become_unknown(a, place);
 }
 
-/* A number's first component is itself, and it has no other, as in POV-Ray; a component has none. */
+/* As in POV-Ray, a number's first component is itself, and it has no others; a component has none. */
 struct value *value_component(struct language *language, struct value *a, int index, struct span name)
 {
   const struct span place = span_join(a->place, name);
@@ -208,7 +208,7 @@ struct value *value_component(struct language *language, struct value *a, int in
   return a;
 }
 
-/* A number after rgb is three, and after color five. */
+/* A number after rgb stands for three parts, and after color for five. */
 struct value *value_rgb(struct language *language, struct value *a, struct span place)
 {
   if (!usable(language, a, "a colour")) return become_unknown(a, place);
@@ -278,7 +278,7 @@ struct value *value_of_parts(struct language *language, struct value *x, struct 
   return value_placed(x, place);
 }
 
-/* Whether it reads as two numbers, the second one with a sign: "1 -2". */
+/* Whether it reads as two numbers, the second one signed: "1 -2". */
 static bool seems_two(const struct language *language, const struct value *value)
 {
   const struct name text = sources_name(language, value->place);
@@ -307,7 +307,8 @@ void value_to_vector(struct language *language, const struct value *a, double ou
     language_error(language, a->place, "a vector is wanted here, not a colour");
     return;
   }
-  if (a->kind == VALUE_NUMBER && a->component) { /* the other parts are those of what it is a component of */
+  if (a->kind == VALUE_NUMBER && a->component) { /* in POV-Ray the other parts are those of the value that it is a
+                                                    component of */
     language_error(language, a->place,
                    "POV-Ray makes another vector of a component than of a number; put this in parentheses");
     return;

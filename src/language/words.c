@@ -16,12 +16,12 @@ struct keyword {
 
 /* Words that begin with one letter. */
 struct initial {
-  uint16_t begin;   /* in WORDS; they end where the next one's begin */
-  uint32_t lengths; /* bit n: some have n letters; none has more than 31 */
+  uint16_t begin;   /* in WORDS; they end where those of the next letter begin */
+  uint32_t lengths; /* bit n: some words have n letters; none has more than 31 */
 };
 
-/* Made by CMake: WORDS, sorted, are the tokens of the grammar that are a word, other spellings of them, and what else
- * POV-Ray 3.7 reserves (grammar/povray.txt), which is FOREIGN. INITIALS has the letters, and an end. */
+/* Made by CMake. WORDS, sorted: the tokens of the grammar that are words, other spellings of them, and the other words
+ * that POV-Ray 3.7 reserves (grammar/povray.txt), which are FOREIGN. INITIALS: the letters, and an end. */
 #include "language/word_tables.h"
 
 static const struct keyword DIRECTIVES[] = {{"declare", PSCN_TOKEN_DECLARE},
@@ -59,7 +59,7 @@ static const struct keyword FOREIGN_DIRECTIVES[] = {{"break", TOKEN_FOREIGN_DIRE
 
 int words_compare(const char *word, size_t length, const char *name)
 {
-  size_t k = 0; /* most words part at their first letters */
+  size_t k = 0; /* most words differ in their first letters */
   while (k < length && name[k] == word[k] && name[k]) k++;
   return k < length ? (unsigned char)word[k] - (unsigned char)name[k] : name[k] ? -1 : 0;
 }
@@ -69,7 +69,7 @@ struct sought {
   size_t length;
 };
 
-/* Of a word and a row of a sorted table, which begins with a name. */
+/* Compares a word with a row of a sorted table, which begins with a name. */
 static int compare_row(const void *sought, const void *row)
 {
   const struct sought *w = sought;
@@ -79,10 +79,10 @@ static int compare_row(const void *sought, const void *row)
 #define FIND(word, length, table) \
   bsearch(&(struct sought){word, length}, table, COUNT(table), sizeof *(table), compare_row)
 
-/* Most names are told from the words by initial and length. */
+/* Initial and length distinguish most names from the words. */
 int words_token(const char *word, size_t length)
 {
-  if (word[0] < 'a') return PSCN_TOKEN_WORD; /* no word of a language begins with a capital */
+  if (word[0] < 'a') return PSCN_TOKEN_WORD; /* no word of the language begins with a capital */
   const struct initial *initial = &INITIALS[word[0] - 'a'];
   if (length > 31 || (initial->lengths >> length & 1) == 0) return PSCN_TOKEN_WORD;
   size_t begin = initial[0].begin, end = initial[1].begin;
@@ -105,7 +105,7 @@ bool words_declared(const char *word, size_t length)
 
 const char *words_directive(const char *text, size_t *length)
 {
-  if (*text != '#') return text; /* comments stand between the two */
+  if (*text != '#') return text; /* comments are between the two */
   do text++, --*length;
   while (strchr(" \t\r\n\f\v", *text));
   return text;
@@ -207,7 +207,7 @@ void guess_consider(struct guess *guess, const char *candidate, size_t length)
   if (guess->length > LONGEST_COMPARED || length > LONGEST_COMPARED) return;
   if (guess->length > length + guess->distance || length > guess->length + guess->distance) return;
   const size_t d = distance_between(guess->word, guess->length, candidate, length);
-  /* A word all of whose letters are wrong is no misspelling, nor is the word itself. */
+  /* A word with all letters wrong is not a misspelling, nor is the word itself. */
   if (d == 0 || d >= guess->length || d > guess->distance || (guess->best && d == guess->distance)) return;
   guess->best = candidate;
   guess->best_length = length;
