@@ -1,5 +1,5 @@
-/* A scene as canonical text. One order, one layout, numbers by number_write: equal scenes give equal text. Textures
- * have the numbers that the scene gives them, which are in the order in which patches first use them. */
+/* A scene as canonical text. There is one order, one layout, and numbers are written by number_write, so equal scenes
+ * give equal text. Textures keep the scene's numbers, which are in the order in which patches first use them. */
 #include "scene/dump.h"
 
 #include "base/number.h"

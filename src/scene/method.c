@@ -13,15 +13,15 @@ static bool papers_way(const struct method *method)
          method->back_substitution == BACK_SUBSTITUTION_EUCLID && !method->polish;
 }
 
-/* Where the form of the iteration is not named, the paper's goes with the paper's method, whichever of its items is
- * said first. */
+/* If the form of the iteration is not named, the paper's form goes with the paper's method, whichever of its items is
+ * set first. */
 static void follow_form(struct method *method)
 {
   if (!method->form_said) solver_options_form(&method->roots, !papers_way(method));
 }
 
-/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done
- * when it was set. */
+/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` runs after
+ * an item was set. */
 #define ITEM_ACCESSORS(name, field, type, after)              \
   static void set_##name(struct method *method, double value) \
   {                                                           \
@@ -47,7 +47,7 @@ ITEM_ACCESSORS(rest, roots.rest, bool, method->form_said = true)
 ITEM_ACCESSORS(deflation, roots.deflation, enum deflation, method->form_said = true)
 ITEM_ACCESSORS(refine, roots.refine, bool, method->form_said = true)
 
-/* The paper's form is all that the paper does; the improved one is of the iteration alone. */
+/* `form paper` sets all that the paper does; `form improved` concerns the iteration alone. */
 static void set_form(struct method *method, double value)
 {
   const bool paper = value == 0.0;
@@ -81,11 +81,11 @@ static const char *const off_on[] = {"off", "on", NULL};
 static const char *const residual_words[] = {"auto", NULL};
 static const char *const split_words[] = {"auto", NULL};
 
-/* Limits: a tolerance of 1 in a parameter of [0,1] asks for nothing; iterations are bounded so that no solve can
+/* Limits. A tolerance of 1 in a parameter of [0,1] demands nothing. Iterations are bounded so that no solve can
  * hang. */
 #define MAX_TOLERANCE 1.0
 #define MAX_ITERATIONS 10000
-#define MAX_RESIDUAL 1.0 /* of the largest coefficient, which no value in [0,1]^2 is above */
+#define MAX_RESIDUAL 1.0 /* relative to the largest coefficient, which no value in [0,1]^2 exceeds */
 #define MAX_SPLIT 64
 
 static const struct method_item items[] = {
@@ -95,7 +95,7 @@ static const struct method_item items[] = {
    get_max_iterations},
   {"start", "from Aberth's circle, or from the roots of the previous ray on the same leaf", METHOD_ITEM_KEYWORD,
    start_words, 0, 1, set_start, get_start},
-  /* form stands before the items it sets, so that a block written in this order reads back the same. */
+  /* form comes before the items that it sets, so that a block written in this order reads back the same. */
   {"form", "paper: the paper's way, all of the following; improved: the iterations with all improvements",
    METHOD_ITEM_KEYWORD, form_words, 0, 1, set_form, get_form},
   {"basis", "in which the resultant is written", METHOD_ITEM_KEYWORD, basis_words, 0, 1, set_basis, get_basis},
@@ -152,7 +152,7 @@ bool method_equal(const struct method *a, const struct method *b)
   return equal;
 }
 
-/* Text that grows at the end of a fixed space. */
+/* Text that grows at its end, in fixed space. */
 struct text {
   char *out;
   size_t size, length;
@@ -171,7 +171,7 @@ static void append_value(struct text *text, const struct method_item *item, doub
   size_t words = 0;
   while (item->keywords && item->keywords[words]) words++;
   char number[NUMBER_TEXT_SIZE];
-  const bool word = value >= 0 && value < (double)words && value == (double)(size_t)value; /* 1e-9 is no auto */
+  const bool word = value >= 0 && value < (double)words && value == (double)(size_t)value; /* 1e-9 is not auto */
   if (!word) number_write(value, number);
   append(text, word ? item->keywords[(size_t)value] : number);
 }
@@ -179,7 +179,7 @@ static void append_value(struct text *text, const struct method_item *item, doub
 void method_text(const struct method *method, char *out, size_t size)
 {
   struct text text = {.out = out, .size = size};
-  struct method said; /* what the text so far means */
+  struct method said; /* the meaning of the text so far */
   method_default(method->roots.solver, &said);
   out[0] = '\0';
   append(&text, method->roots.solver->name);

@@ -1,8 +1,8 @@
-/* The method a scene selects: what one `solver` statement says, of the solver and of the way from a ray to the
+/* The method a scene selects: what one `solver` statement says about the solver, and about the way from a ray to the
  * polynomial and back.
  *
- * The items of the statement are a table, so that the language reads them, and dumps and reports write them, without
- * knowing any of them. All functions are pure.
+ * The items of the statement are a table. So the language reads them, and dumps and reports write them, without knowing
+ * any of them. All functions are pure.
  */
 #ifndef PSCN_SCENE_METHOD_H
 #define PSCN_SCENE_METHOD_H
@@ -12,20 +12,20 @@
 enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
 enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
 
-/* Filled by method_default, then changed item by item. */
+/* Set by method_default, then changed item by item. */
 struct method {
   struct solver_options roots; /* the solver and its own choices */
   enum basis basis;            /* in which the resultant is written */
   enum resultant resultant;
   enum back_substitution back_substitution;
   bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
-  double residual; /* polish off: how far an answer may be from solving eq 3, see intersect/method.c; 0 = auto */
+  double residual; /* polish off: how far an answer may be from a solution of eq 3, see intersect/method.c; 0 = auto */
   int split;       /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
-  bool form_said;  /* some choice of iteration was set by name: otherwise they follow from the rest, see method.c */
-  bool basis_said; /* the basis was: otherwise it is what suits who asks */
+  bool form_said;  /* a choice of iteration was set by name; otherwise they follow from the rest, see method.c */
+  bool basis_said; /* the basis was set; otherwise the caller uses what suits it */
 };
 
-/* What a bare `solver NAME` means. */
+/* The meaning of a bare `solver NAME`. */
 void method_default(const struct solver *solver, struct method *out);
 
 enum method_item_kind { METHOD_ITEM_NUMBER, METHOD_ITEM_INTEGER, METHOD_ITEM_KEYWORD };
@@ -42,12 +42,12 @@ struct method_item {
 
 size_t method_item_count(void);
 const struct method_item *method_item_at(size_t index);       /* NULL behind the last */
-const struct method_item *method_item_find(const char *name); /* NULL where there is none */
+const struct method_item *method_item_find(const char *name); /* NULL if there is none */
 
 bool method_equal(const struct method *a, const struct method *b);
 
-/* What would stand behind `solver`, ended by 0: the name, and in braces the items that do not follow from what stands
- * before them. Cut off at `size` bytes; METHOD_TEXT_SIZE is room for everything there is. */
+/* The text that would follow `solver`, ended by 0: the name, and in braces the items that do not follow from those
+ * before them. Cut off at `size` bytes; METHOD_TEXT_SIZE is enough for everything. */
 enum { METHOD_TEXT_SIZE = 512 };
 void method_text(const struct method *method, char *out, size_t size);
 

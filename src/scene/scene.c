@@ -1,4 +1,4 @@
-/* A scene: little more than its lifetime; src/language builds it. */
+/* A scene: little more than its lifetime. src/language builds it. */
 #include "scene/scene.h"
 
 void scene_override_solver(struct scene *scene, const struct method *method)
@@ -17,6 +17,6 @@ bool scene_starts_warm(const struct scene *scene)
 
 void scene_destroy(struct scene *scene)
 {
-  /* The scene itself lies in its arena. */
+  /* The scene itself is in its arena. */
   if (scene) arena_destroy(scene->arena);
 }

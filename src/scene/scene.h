@@ -1,7 +1,7 @@
-/* What a scene is, after all names, includes, arithmetic and transforms have been resolved.
+/* A scene after all names, includes, arithmetic and transforms have been resolved.
  *
- * Left-handed world as in POV-Ray. Colours are linear RGB. Everything is finite. A scene and all it points to lives
- * in its arena; once built it is read-only and may be shared by threads.
+ * The world is left-handed, as in POV-Ray. Colours are linear RGB. Everything is finite. A scene and all it points to
+ * live in its arena. Once built, it is read-only and may be shared by threads.
  */
 #ifndef PSCN_SCENE_SCENE_H
 #define PSCN_SCENE_SCENE_H
@@ -13,7 +13,7 @@
 #include "base/arena.h"
 #include "scene/method.h"
 
-/* POV-Ray's finish; the formulas stand in render/shade.h. All but the roughness may be negative. */
+/* POV-Ray's finish; render/shade.h has the formulas. All numbers but the roughness may be negative. */
 struct scene_finish {
   double ambient[3];          /* factor of ambient_light, by colour */
   double diffuse, brilliance; /* factor, exponent */
@@ -30,20 +30,20 @@ struct scene_patch {
   double P[4][4][3]; /* control net in world space; u runs across rows (first index), v along a row */
   uint32_t texture;  /* index into scene.textures */
   uint32_t solver;   /* index into scene.solvers */
-  /* Kept for POV-Ray only; they mean nothing to our rays. */
+  /* Kept only for POV-Ray; they do not affect our rays. */
   int type;             /* 0 or 1 */
   int u_steps, v_steps; /* 0 to 16: POV-Ray cuts the patch into at most 2^u_steps x 2^v_steps */
   double flatness;      /* >= 0, scene units */
 };
 
-/* A declared object that stands in the scene more than once: its control nets as declared. */
+/* A declared object that occurs in the scene more than once: its control nets as declared. */
 struct scene_object {
   double (*P)[4][4][3];
   size_t patch_count;
 };
 
-/* One of the places where it stands: the patches from `first_patch` on, as many as the object has and in its order,
- * are the object's with every point p moved to p A + b (row vectors), up to the rounding of p, A and b. */
+/* One occurrence of it. The patches from `first_patch` on, as many as the object has and in its order, are the object's
+ * with every point p moved to p A + b (row vectors), up to the rounding of p, A and b. */
 struct scene_copy {
   uint32_t object; /* index into scene.objects */
   size_t first_patch;
@@ -52,7 +52,7 @@ struct scene_copy {
 
 struct scene_light {
   double position[3], color[3]; /* a part of the colour may be negative */
-  bool shadowless;              /* nothing hides it */
+  bool shadowless;              /* nothing blocks it */
 };
 
 /* Perspective. The primary ray of the point (s,t) of the picture, s and t in [0,1] from the left and top edges, leaves
@@ -66,23 +66,23 @@ enum { SCENE_HASH_SIZE = 33 };
 struct scene {
   struct arena *arena;
   struct scene_camera camera;
-  bool has_camera; /* it was said; else it is POV-Ray's default */
+  bool has_camera; /* it was given; otherwise it is POV-Ray's default */
   double background[3], ambient_light[3];
   struct scene_light *lights;
   size_t light_count;
-  struct scene_patch *patches; /* in the order they stand after objects are expanded */
+  struct scene_patch *patches; /* in the order of the text, with objects expanded */
   size_t patch_count;
   struct scene_object *objects;
   size_t object_count;
-  struct scene_copy *copies; /* by first_patch; none overlaps another, and what is copied once is none */
+  struct scene_copy *copies; /* by first_patch; they do not overlap, and nothing that occurs only once is listed */
   size_t copy_count;
-  struct scene_texture *textures; /* from a text: all different, in the order in which patches first use them */
+  struct scene_texture *textures; /* if from a text: all different, in the order in which patches first use them */
   size_t texture_count;
-  struct method *solvers; /* [0] is global_settings', the default of every patch */
+  struct method *solvers; /* [0] is that of global_settings, the default of every patch */
   size_t solver_count;
-  const char **files; /* the paths of the files that were read for it */
+  const char **files; /* paths of the files read for it */
   size_t file_count;
-  char text_hash[SCENE_HASH_SIZE]; /* of all text that was read for it, in hexadecimal digits */
+  char text_hash[SCENE_HASH_SIZE]; /* of all text read for it, in hexadecimal digits */
 };
 
 /* Makes `method` the solver of every patch (--solver and --tolerance on the command line). */
