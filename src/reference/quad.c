@@ -7,7 +7,7 @@
 quad quad_sqrt(quad x)
 {
   if (!(x > 0) || x - x != 0) return x > 0 ? x : 0;
-  quad unit = 1; /* brings x to where doubles are normal */
+  quad unit = 1; /* scales x to where doubles are normal */
   for (; x > 0x1p1000; x *= 0x1p-1000) unit *= 0x1p500;
   for (; x < 0x1p-1000; x *= 0x1p1000) unit *= 0x1p-500;
   int exponent;

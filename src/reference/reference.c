@@ -1,4 +1,5 @@
-/* The closest hit over a list of patches, classified; the search inside a patch is search.c. See reference.h. */
+/* The closest hit over a list of patches, with its verdict. search.c does the search inside a patch. See
+ * reference.h. */
 #include "reference/reference.h"
 
 #include <math.h>
@@ -71,8 +72,8 @@ const double (*reference_net(const struct reference *reference, uint32_t patch))
   return (const double(*)[4][3])reference->patches[patch].P;
 }
 
-/* The slab test on the box of the control points, widened by its rounding errors: a difference and a quotient, 3
- * units each way. Where the ray meets the box it enters it at `out_t` or later. */
+/* The slab test on the box of the control points, widened by its rounding errors: a difference and a quotient, 3 units
+ * each way. A ray that meets the box enters it at `out_t` or later. */
 static bool patch_box_met(const struct patch *patch, const double origin[3], const double direction[3], double *out_t)
 {
   double enter = 0, leave = INFINITY;
@@ -95,7 +96,7 @@ static bool patch_box_met(const struct patch *patch, const double origin[3], con
   return enter <= leave;
 }
 
-/* Where x lies beside [0,1], known to `radius`. */
+/* Where x lies relative to [0,1], if it is known to `radius`. */
 static void judge_parameter(quad x, double radius, bool *border, bool *inside)
 {
   const quad within = x < (quad)0.5 ? x : 1 - x; /* distance to the nearer end, negative outside */
@@ -103,7 +104,7 @@ static void judge_parameter(quad x, double radius, bool *border, bool *inside)
   if (within < -(quad)radius) *inside = false;
 }
 
-/* The nearest candidate at a border of its patch, or inside and away from them all; -1 for none. */
+/* The nearest candidate, at a border of its patch or away from all of them; -1 for none. */
 static int nearest(const struct candidates *all, bool border)
 {
   int best = -1;

@@ -1,14 +1,14 @@
-/* The reference: the closest hit of a ray and a list of bicubic Bezier patches, with a guarantee.
+/* The reference: the closest hit of a ray with a list of bicubic Bezier patches, with a guarantee.
  *
- * For tests and the chart. Shares no code and no method with the renderer: no resultant, no roots of polynomials in one
- * variable. The ray is the line common to two planes, so each patch becomes two bicubic functions a(u,v), b(u,v). Boxes
- * of the (u,v) square are halved; a box is
- * - dropped when the hull of its Bernstein coefficients (of a linear combination of a and b) excludes zero,
- * - settled when a preconditioned Jacobian stays within 1/2 of the identity (at most one root in the box: injectivity
- *   by diagonal dominance) and the root Newton's method finds is proven by Krawczyk's test in quadruple precision.
- * Double precision with running error bounds does the dropping; wherever the bound is no longer small beside the
- * variation in the box, the box is cut anew out of the quadruple-precision net. Inputs are exact: the doubles as they
- * stand.
+ * For tests and the chart. It shares no code and no method with the renderer: no resultant, no roots of polynomials in
+ * one variable. The ray is the intersection of two planes, so each patch becomes two bicubic functions a(u,v), b(u,v).
+ * Boxes of the (u,v) square are halved. A box is
+ * - dropped if the hull of the Bernstein coefficients of a linear combination of a and b excludes zero;
+ * - settled if a preconditioned Jacobian stays within 1/2 of the identity (then the box has at most one root:
+ *   injectivity by diagonal dominance) and Krawczyk's test in quadruple precision proves the root that Newton's method
+ *   finds.
+ * Boxes are dropped in double precision with running error bounds. Wherever the bound is no longer small beside the
+ * variation in the box, the box is cut anew from the quadruple-precision net. Inputs are exact: the doubles as given.
  *
  * What is guaranteed (magnitudes of the data between 1e-60 and 1e60):
  * REFERENCE_HIT      there is a hit at t, to within t_radius, and no hit before it;
@@ -16,8 +16,8 @@
  * REFERENCE_GRAZING  undecided, for one of three reasons:
  *                    (1) a box of REFERENCE_SMALLEST_BOX a side (or more boxes than a budget allows) cannot be settled:
  *                        a double root, a collapsed edge met exactly, a curve in common;
- *                    (2) the hit lies within REFERENCE_BORDER of the border of its patch and no other patch shares it;
- *                    (3) the hit lies at the ray's origin, within REFERENCE_ORIGIN times the size of the data.
+ *                    (2) the hit is within REFERENCE_BORDER of the border of its patch and no other patch shares it;
+ *                    (3) the hit is at the ray's origin, within REFERENCE_ORIGIN times the size of the data.
  * Source: R. Moore, R. Kearfott, M. Cloud, Introduction to Interval Analysis, chapter 8 (preconditioning, Krawczyk's
  * operator).
  */
@@ -41,30 +41,30 @@ enum { REFERENCE_NONE = UINT32_MAX };
 
 struct reference_answer {
   enum reference_verdict verdict;
-  /* REFERENCE_GRAZING: nothing is hit before this t (units of |direction|). Otherwise equal to t. */
+  /* REFERENCE_GRAZING: nothing is hit before this t (in units of |direction|). Otherwise equal to t. */
   double t_first;
-  /* The nearest proven hit: with REFERENCE_HIT the answer, with REFERENCE_GRAZING an upper bound of it. patch is
-   * REFERENCE_NONE where there is none, and then the rest is not written. */
+  /* The nearest proven hit: with REFERENCE_HIT the answer, with REFERENCE_GRAZING an upper bound of it. If there is
+   * none, patch is REFERENCE_NONE, and the rest is not written. */
   uint32_t patch;
-  quad t, u, v;    /* t in units of |direction|; u, v in [0,1] but for the radius */
+  quad t, u, v;    /* t in units of |direction|; u, v in [0,1] except for the radius */
   double radius;   /* bound on the error of u and v */
   double t_radius; /* bound on the error of t */
-  bool shared;     /* at an edge that another patch has too: patch, u, v may be the neighbour's */
+  bool shared;     /* on an edge shared with another patch: patch, u, v may be those of the neighbour */
 };
 
 struct reference;
 
-/* Borrows nothing: the `count` nets P[patch][i][j][xyz] (i = u across rows, j = v along a row) are copied.
- * NULL where memory is short. */
+/* Copies the `count` nets P[patch][i][j][xyz] (i = u across rows, j = v along a row), and borrows nothing. NULL if
+ * memory is short. */
 struct reference *reference_create(const double (*P)[4][4][3], size_t count);
 void reference_destroy(struct reference *reference);
 
-/* The closest hit of the ray origin + t direction, t > 0. The direction may have any length > 0. Any number of
- * threads. */
+/* The closest hit, t > 0, of the ray origin + t direction. The direction may have any length > 0. Any number of threads
+ * may call it. */
 void reference_closest(const struct reference *reference, const double origin[3], const double direction[3],
                        struct reference_answer *out);
 
-/* The net of a patch, as long as the reference lives. */
+/* The net of a patch; it lives as long as the reference. */
 const double (*reference_net(const struct reference *reference, uint32_t patch))[4][3];
 
 #endif

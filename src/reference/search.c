@@ -7,18 +7,18 @@
 
 enum { A, B, T, FUNCTIONS };
 
-/* A box is cut anew in quadruple precision where the error bound of a combination that decides about it exceeds this
- * share of the combination's range: well before the error decides. */
+/* A box is cut anew in quadruple precision if the error bound of a combination that decides about it exceeds this share
+ * of the combination's range: well before the error decides. */
 #define SLACK_SHARE 0x1p-20
 
-/* ||I - Y J|| at most this on a box: no two zeros in it, and Newton's method contracts by it. */
+/* If ||I - Y J|| is at most this on a box, no two zeros are in it, and Newton's method contracts by it. */
 #define CONTRACTION 0.5
 
-/* A root may lie outside its box by this share of the box (and by REFERENCE_BORDER at most): the contraction, proven
- * for the box, grows there by less than 6 x 4 x this. */
+/* A root may be outside its box by this share of the box (and by REFERENCE_BORDER at most). The contraction, proven for
+ * the box, grows there by less than 6 x 4 x this. */
 #define OVERHANG 0x1p-10
 
-/* 24 + 36, and some for points a little outside the square. */
+/* 24 + 36, and a margin for points slightly outside the square. */
 #define VARIATION 64
 
 enum { STACK_SIZE = 256, NEWTON_STEPS = 12, QUAD_STEPS = 6 };
@@ -39,8 +39,8 @@ struct search {
   struct search_result *out;
 };
 
-/* The planes of the ray: a and b are the components of direction x (P - origin) other than along the axis k where the
- * direction is longest, so that the planes meet at 60 degrees or more. */
+/* The planes of the ray: a and b are the components of direction x (P - origin) other than that along the axis k where
+ * the direction is longest. So the planes meet at 60 degrees or more. */
 static int longest_axis(const double d[3])
 {
   int k = 0;
@@ -49,8 +49,8 @@ static int longest_axis(const double d[3])
   return k;
 }
 
-/* Coefficients in double. Each is a sum of products of a difference (one rounding) with an exact number: at most 4
- * roundings of a and b, 8 of t, relative to the sum of the terms' sizes. */
+/* Coefficients in double precision. Each is a sum of products of a difference (one rounding) with an exact number: at
+ * most 4 roundings for a and b, and 8 for t, relative to the sum of the terms' sizes. */
 static void box_whole(const struct search *s, struct box *box)
 {
   const double *d = s->direction;
@@ -102,7 +102,8 @@ static void search_need_quad(struct search *s)
   s->has_quad = true;
 }
 
-/* Cuts the box anew out of the quadruple-precision net: the slack falls to one rounding of what stands in the box. */
+/* Cuts the box anew from the quadruple-precision net. The slack falls to one rounding of the coefficients in the
+ * box. */
 static void box_refresh(struct search *s, struct box *box)
 {
   search_need_quad(s);
@@ -121,7 +122,7 @@ static void box_refresh(struct search *s, struct box *box)
   }
 }
 
-/* A cubic cut in the middle: each level is one rounded sum and an exact halving, 3 levels. */
+/* Cuts a cubic in the middle. Each of the 3 levels is a rounded sum and an exact halving. */
 static void halve(const double c[4], double low[4], double high[4])
 {
   const double p01 = 0.5 * (c[0] + c[1]), p12 = 0.5 * (c[1] + c[2]), p23 = 0.5 * (c[2] + c[3]);
@@ -167,8 +168,8 @@ static void net_range(const double c[4][4], double *low, double *high)
   }
 }
 
-/* True where a function with these coefficients, each known to `slack`, has no zero; otherwise *blurred is set where
- * the slack is no longer small. */
+/* Whether a function with these coefficients, each known to `slack`, has no zero. Otherwise sets *blurred if the slack
+ * is no longer small. */
 static bool excludes_zero(const double c[4][4], double slack, bool *blurred)
 {
   double low, high;
@@ -178,7 +179,7 @@ static bool excludes_zero(const double c[4][4], double slack, bool *blurred)
   return false;
 }
 
-/* Largest change of a and b from one coefficient to the next, along u and along v. */
+/* The largest change of a and b from one coefficient to the next, along u and along v. */
 static void box_variation(const struct box *box, double variation[2])
 {
   variation[0] = variation[1] = 0;
@@ -192,7 +193,7 @@ static void box_variation(const struct box *box, double variation[2])
   }
 }
 
-/* x a + y b as a net, with the bound on its error. */
+/* x a + y b as a net. Returns the bound on its error. */
 static double combine(const struct box *box, double x, double y, double out[4][4])
 {
   double size = 0;
@@ -230,7 +231,7 @@ static bool invert(double J[2][2], double Y[2][2])
   return isfinite(Y[0][0]) && isfinite(Y[0][1]) && isfinite(Y[1][0]) && isfinite(Y[1][1]);
 }
 
-/* Bounds |dF/du - x| and |dF/dv - y| on the box; the derivatives' coefficients are 3 times differences. */
+/* Bounds |dF/du - x| + |dF/dv - y| on the box; the derivatives' coefficients are 3 times differences. */
 static double row_distance(const double F[4][4], double slack, double x, double y)
 {
   double du = 0, dv = 0;
@@ -252,11 +253,11 @@ static double cubic_value(const double c[4], double t, double *derivative)
   return s * q0 + t * q1;
 }
 
-/* A step this short, in box coordinates, leaves a start that is right to about its square. */
+/* After a step this short, in box coordinates, the start is right to about the square of it. */
 #define NEWTON_SETTLED 1e-9
 
-/* Newton's method for F = 0 in the box's own coordinates, from its middle. Only a start for what follows: nothing is
- * proven. */
+/* Newton's method for F = 0 in the box's own coordinates, from its middle. It proves nothing, and only gives a
+ * start. */
 static bool newton(const double F[2][4][4], double *out_s, double *out_t)
 {
   double s = 0.5, t = 0.5;
@@ -282,9 +283,9 @@ static bool newton(const double F[2][4][4], double *out_s, double *out_t)
   return true;
 }
 
-/* Newton's method in quadruple precision from (u,v), then Krawczyk's test: with Y = J(u,v)^-1, if ||I - Y J|| <= 1/2
- * on the square of half-width r and |Y F(u,v)| <= r/2, exactly one zero lies in it. The variation of J is bounded by
- * the second derivatives, which near the unit square are at most 24 M (uu, vv) and 36 M (uv). */
+/* Newton's method in quadruple precision from (u,v), then Krawczyk's test: with Y = J(u,v)^-1, if ||I - Y J|| <= 1/2 on
+ * the square of half-width r and |Y F(u,v)| <= r/2, exactly one zero is in it. The variation of J is bounded by the
+ * second derivatives, which near the unit square are at most 24 M (uu, vv) and 36 M (uv). */
 static bool prove_root(struct search *s, quad u, quad v, struct search_root *root)
 {
   search_need_quad(s);
@@ -293,7 +294,7 @@ static bool prove_root(struct search *s, quad u, quad v, struct search_root *roo
     size[f] = (double)quad_net_magnitude(&s->net[f]);
     error[f] = s->net_error[f] + QUAD_JET_ROUNDOFFS * QUAD_UNIT * size[f];
   }
-  double reach = 0.5; /* what is still to be expected of the next step */
+  double reach = 0.5; /* bounds the next step */
   for (int step = 0; step < QUAD_STEPS; step++) {
     struct quad_jet a = quad_net_jet(&s->net[A], u, v), b = quad_net_jet(&s->net[B], u, v);
     const quad determinant = a.du * b.dv - a.dv * b.du;
@@ -333,7 +334,7 @@ static bool outside(quad x, double low, double width)
   return x < (quad)low - overhang || x > (quad)low + width + overhang;
 }
 
-/* Neighbouring boxes find a root on their common side both. */
+/* Neighbouring boxes both find a root on their common side. */
 static void add_root(struct search_result *out, const struct search_root *root)
 {
   for (int k = 0; k < out->count; k++) {
@@ -341,7 +342,7 @@ static void add_root(struct search_result *out, const struct search_root *root)
     const double reach = 4 * (known->radius + root->radius);
     if (quad_abs(known->u - root->u) <= reach && quad_abs(known->v - root->v) <= reach) return;
   }
-  if (out->count == SEARCH_MAX_ROOTS) { /* more than the 18 there can be without a curve in common */
+  if (out->count == SEARCH_MAX_ROOTS) { /* more than the 18 that are possible without a curve in common */
     out->undecided = true;
     out->t_undecided = -INFINITY;
     return;
@@ -357,8 +358,8 @@ static void give_up(struct search *s, const struct box *box)
   s->out->t_undecided = fmin(s->out->t_undecided, low - box->slack[T]);
 }
 
-/* True where the box is done with: no zero in it, or its only one is known. Otherwise *blurred says that rounding may
- * be why. */
+/* Whether the box is done: it has no zero, or its only one is known. Otherwise *blurred says that rounding may be the
+ * reason. */
 static bool settle(struct search *s, const struct box *box, bool *blurred)
 {
   *blurred = false;
@@ -371,7 +372,7 @@ static bool settle(struct search *s, const struct box *box, bool *blurred)
 
   double J[2][2], Y[2][2], F[2][4][4], slack[2];
   mean_jacobian(box, J);
-  /* The combinations along the left singular vectors of J: near a tangency one of them varies only quadratically. */
+  /* The combinations along the left singular vectors of J. Near a tangency, one of them varies only quadratically. */
   const double angle = 0.5 * atan2(2 * (J[0][0] * J[1][0] + J[0][1] * J[1][1]),
                                    J[0][0] * J[0][0] + J[0][1] * J[0][1] - J[1][0] * J[1][0] - J[1][1] * J[1][1]);
   const double cosine = cos(angle), sine = sin(angle);
