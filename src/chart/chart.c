@@ -14,7 +14,7 @@
 enum {
   RAYS = 2048,
   QUICK_RAYS = 1024, /* of the camera, about */
-  MOST_RAYS = 8192,  /* where fewer hit nothing */
+  MOST_RAYS = 8192,  /* if fewer hit nothing */
   ROUNDS = 5,
   QUICK_ROUNDS = 3
 };
@@ -86,7 +86,8 @@ static bool any_hits(const struct ray_list *rays, const struct hit hits[])
   return false;
 }
 
-/* Few rays may all pass what is small in the picture: nobody who has not asked for so many wants a chart without an error. */
+/* Few rays may all miss what is small in the picture. Then more are taken, unless a number was requested: a chart
+ * without errors is useless. */
 static enum status prepare_rays(struct chart *chart, const struct method *options)
 {
   struct hit *hits;
@@ -117,7 +118,7 @@ static enum status find_truths(struct chart *chart)
 
 /* ---- the sweep over our own solvers ---- */
 
-/* sweep[0..count), count <= CHART_BATCH. */
+/* Runs sweep[0..count), count <= CHART_BATCH. */
 static enum status run_batch(struct chart *chart, const struct sweep_point *sweep, size_t count)
 {
   struct pscn_runner ours[CHART_BATCH];

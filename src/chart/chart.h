@@ -11,23 +11,24 @@
 
 struct chart_request {
   const char *path;         /* of the scene */
-  const char *folder;       /* receives the results; is there */
-  const char *command_line; /* told on the page */
+  const char *folder;       /* receives the results; exists */
+  const char *command_line; /* shown on the page */
   const char *program;      /* POV-Ray */
-  size_t width, height;     /* of the picture that the rays are of, pixels */
-  size_t rays, rounds;      /* camera rays, about; how often each is measured. 0: as is usual for `quick` or not */
+  size_t width, height;     /* pixels of the picture that the rays belong to */
+  size_t rays, rounds;      /* about how many camera rays; how often each is measured. 0: the usual number, with or
+                               without `quick` */
   double timeout;           /* seconds that a run of POV-Ray may take */
   size_t memory;            /* bytes that it may take */
   bool quick, peers;        /* fewer points; with Embree and POV-Ray */
 };
 
-/* What the files are called that chart_scene writes, or takes away where it has none. */
+/* The names of the files that chart_scene writes, or removes if it has none. */
 enum { CHART_FILES = 3 };
 extern const char *const chart_files[CHART_FILES];
 
-/* Measures, judges, and writes chart.csv, chart.svg and chart.html: all of them, or none where something fails or the
- * listener stops it. `scene` gets the default solver; the steps of its patches are changed. *out_text, to be freed in
- * any case, receives the front as a table. A peer that is missing or fails is told, no error. */
+/* Measures, judges, and writes chart.csv, chart.svg and chart.html: all of them, or none if something fails or the
+ * listener stops it. `scene` gets the default solver, and the steps of its patches are changed. *out_text, to be freed
+ * in any case, receives the front as a table. A peer that is missing or fails is reported, and is no error. */
 enum status chart_scene(const struct chart_request *request, struct scene *scene, const struct listener *listener,
                         struct text_buffer *out_text) STATUS_MUST_CHECK;
 

@@ -1,4 +1,4 @@
-/* The peer of triangles. Embree's documentation: doc/src/api.md of its sources. */
+/* The peer of triangles. Embree's documentation is doc/src/api.md in its sources. */
 #include "chart/embree_mesh.h"
 
 #include <embree3/rtcore.h>
@@ -15,7 +15,7 @@ struct embree_mesh {
   unsigned side;
 };
 
-/* Rays together, 8 or 16, are columns of words: of the ray, then of the hit (Embree's accessors of RTCRayN and
+/* 8 or 16 rays together are columns of words: of the ray, then of the hit (Embree's accessors of RTCRayN and
  * RTCHitN). */
 enum column {
   ORIGIN = 0,
@@ -33,7 +33,7 @@ enum column {
 };
 
 struct embree_rays {
-  size_t count; /* rounded up to MOST_TOGETHER: the last ray is repeated */
+  size_t count; /* rounded up to MOST_TOGETHER by repeating the last ray */
   struct RTCRay *ray;
 };
 
@@ -84,7 +84,7 @@ static void mesh_destroy(struct embree_mesh *mesh)
   free(mesh);
 }
 
-/* With the instructions that PSCN_KERNEL leaves pscn, where it takes some away. */
+/* Restricts the instructions to those that PSCN_KERNEL leaves pscn, if it excludes some. */
 static RTCDevice device_open(void)
 {
   const char *kernel = getenv("PSCN_KERNEL");
@@ -181,7 +181,7 @@ static double trace_singles(const struct embree_mesh *mesh, const struct embree_
   return sum;
 }
 
-/* Inlined, so that the width is known to the compiler. */
+/* Inlined, so that the compiler knows the width. */
 __attribute__((always_inline)) static inline double trace_together(const struct embree_mesh *mesh,
                                                                    const struct embree_rays *rays, unsigned width,
                                                                    bool coherent, bool any)

@@ -1,7 +1,8 @@
-/* The peer of triangles: every patch cut into a mesh and traced by Embree (https://www.embree.org), single precision.
+/* The peer of triangles: every patch is cut into a mesh, which Embree (https://www.embree.org) traces in single
+ * precision.
  *
- * For measuring only; pscn never links it. The chart loads it with a module, EMBREE_MODULE_FILE, which is built where
- * PSCN_EMBREE is on and Embree 3 is found, and has a symbol EMBREE_MODULE_SYMBOL of type struct embree_peer.
+ * For measuring only; pscn never links it. The chart loads it as a module, EMBREE_MODULE_FILE, which is built if
+ * PSCN_EMBREE is on and Embree 3 is found. The module has a symbol EMBREE_MODULE_SYMBOL of type struct embree_peer.
  */
 #ifndef PSCN_CHART_EMBREE_MESH_H
 #define PSCN_CHART_EMBREE_MESH_H
@@ -15,27 +16,27 @@
 #define EMBREE_MODULE_SYMBOL "pscn_embree_peer"
 
 struct embree_mesh;
-struct embree_rays; /* rays as Embree wants them, rounded to float */
+struct embree_rays; /* rays in Embree's form, rounded to float */
 
 struct embree_peer {
-  /* `side` x `side` squares of two triangles a patch, corners on the patch, one thread; the hierarchy of the best quality
-   * or, several times sooner, of Embree's default. P[patch][i][j][xyz]. Of the processor's instructions it uses those
-   * that PSCN_KERNEL leaves pscn. NULL where memory is short or Embree fails. */
+  /* Makes `side` x `side` squares of two triangles for each patch, corners on the patch, on one thread. The hierarchy
+   * is of the best quality, or of Embree's default, which is built several times sooner. P[patch][i][j][xyz]. It uses
+   * those of the processor's instructions that PSCN_KERNEL leaves pscn. NULL if memory is short or Embree fails. */
   struct embree_mesh *(*mesh_create)(const double (*P)[4][4][3], size_t patch_count, unsigned side, bool best);
   void (*mesh_destroy)(struct embree_mesh *mesh);
   struct embree_rays *(*rays_create)(const struct ray *rays, size_t count);
   void (*rays_destroy)(struct embree_rays *rays);
 
-  /* How many rays together it has the instructions for: 8 or 16. */
+  /* How many rays together the processor has instructions for: 8 or 16. */
   unsigned (*widest)(const struct embree_mesh *mesh);
 
-  /* Traces all rays in order: one by one (width 1), or 8 or 16 together, said to be coherent or not; for the closest
-   * hit, or for any. Returns a number made of all answers, so that none can be left out. */
+  /* Traces all rays in order: one by one (width 1), or 8 or 16 together, declared coherent or not; for the closest hit,
+   * or for any. Returns a number made of all answers, so that none can be optimized away. */
   double (*trace)(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool coherent,
                   bool any);
 
-  /* What one ray answers: t of the closest hit, or where `any` will do a finite one, and the patch the triangle is of;
-   * INFINITY and HIT_NONE on a miss. */
+  /* The answer to one ray: t of the closest hit, or for `any` a finite one, and the patch of the triangle; INFINITY and
+   * HIT_NONE on a miss. */
   void (*answer)(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, bool any, double *out_t,
                  uint32_t *out_patch);
 };

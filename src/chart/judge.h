@@ -1,7 +1,7 @@
-/* Truths about rays from the reference, and answers judged by them.
+/* True answers to rays from the reference, and other answers judged by them.
  *
- * The reference (reference/reference.h) shares no code and no method with the renderer. Where the compiler has no
- * quadruple precision there is none, and judge_truths answers STATUS_LIMIT; judge_available asks.
+ * The reference (reference/reference.h) shares no code and no method with the renderer. If the compiler has no
+ * quadruple precision, there is none: judge_available says so, and judge_truths returns STATUS_LIMIT.
  */
 #ifndef PSCN_CHART_JUDGE_H
 #define PSCN_CHART_JUDGE_H
@@ -19,12 +19,12 @@ enum truth_kind { TRUTH_MISS, TRUTH_HIT, TRUTH_UNDECIDED };
 
 struct truth {
   enum truth_kind kind;
-  double t, t_rest; /* of a hit, in units of |direction|: t + t_rest, t being the nearest double */
+  double t, t_rest; /* of a hit, in units of |direction|: t + t_rest, where t is the nearest double */
   uint32_t patch;
-  bool shared; /* the hit lies on an edge that another patch has too */
+  bool shared; /* the hit is on an edge shared with another patch */
 };
 
-/* What somebody answers to a ray. */
+/* The answer of a solver or a peer to a ray. */
 enum { ANSWER_PATCH_UNKNOWN = UINT32_MAX - 1 };
 
 struct answer {
@@ -32,33 +32,33 @@ struct answer {
   uint32_t patch; /* or ANSWER_PATCH_UNKNOWN */
 };
 
-/* Both hit, but so far apart, relative: another place of the surface. */
+/* If both hit, but this far apart, relative, they are at different places of the surface. */
 #define JUDGE_WRONG 1e-2
 
 struct judgement {
   size_t rays, undecided, hits; /* hits: of the truth */
   size_t lost;                  /* a hit answered by a miss */
   size_t invented;              /* a miss answered by a hit */
-  size_t wrong;                 /* a hit answered by one farther off than JUDGE_WRONG */
-  size_t other_patch;           /* the right place, but said to be of a patch it is not of */
-  /* relative errors of T of the rays that both hit; p99: of 99 % no more; NAN where there are none */
+  size_t wrong;                 /* a hit answered by one with a larger error than JUDGE_WRONG */
+  size_t other_patch;           /* the right place, but on a wrong patch */
+  /* relative errors of T for the rays that both hit; p99: 99 % have at most this; NAN if there are none */
   double median, p99, max;
-  /* the same, every answer that is lost, invented or wrong counting as an error of 1; NAN where nothing is to be hit */
+  /* the same with every lost, invented or wrong answer as an error of 1; NAN if there is nothing to hit */
   double p99_of_all;
 };
 
 bool judge_available(void);
 
-/* STATUS_INTERRUPTED where *stop turns nonzero. */
+/* STATUS_INTERRUPTED if *stop becomes nonzero. */
 enum status judge_truths(const struct scene *scene, const struct ray_list *rays, const atomic_int *stop,
                          struct truth *out) STATUS_MUST_CHECK;
 
-/* `errors` is room for 2 * count numbers. */
+/* `errors` has room for 2 * count numbers. */
 void judge_answers(size_t count, const struct truth *truths, const struct answer *answers, double *errors,
                    struct judgement *out);
 
-/* Whether anything is hit: only rays, undecided, hits (rays in shadow), lost and invented are set. A truth beyond t_max
- * is no hit. */
+/* Judges whether anything is hit. Sets only rays, undecided, hits (rays in shadow), lost and invented. A true hit
+ * beyond t_max is none. */
 void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const struct answer *answers,
                     struct judgement *out);
 

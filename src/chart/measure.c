@@ -9,7 +9,7 @@
 
 static double thread_seconds(void) { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
-/* values[round] in seconds, of the runner and of the yardstick. Sorts a copy. */
+/* Summarises values[round], in seconds, of the runner and of the yardstick. Sorts a copy. */
 static struct timing summarise(const double *values, const double *yard, size_t rounds, size_t rays)
 {
   double sorted[MEASURE_MAX_ROUNDS], ratio[MEASURE_MAX_ROUNDS];
@@ -24,13 +24,13 @@ static struct timing summarise(const double *values, const double *yard, size_t 
                          .ratio = sorted_quantile(ratio, rounds, 0.5)};
 }
 
-/* A turn lasts at least so long, in seconds: fast runners repeat, and go once unmeasured before, for what ran before
- * them has left its own data in the caches. */
+/* The least duration of a turn, in seconds. Fast runners repeat, after one unmeasured run, because the runner before
+ * has left its own data in the caches. */
 #define LEAST_TURN 1e-3
 
 enum { MOST_REPEATS = 1000 };
 
-/* Seconds of one run, out of a turn of `repeats`. */
+/* Seconds of one run, from a turn of `repeats`. */
 static double take_turn(const struct runner *runner, enum ray_kind kind, size_t repeats)
 {
   if (repeats > 1) runner->run(runner->context, kind, NULL);
@@ -56,7 +56,7 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
     return STATUS_LIMIT;
   }
   bool stopped = false;
-  for (size_t round = 0; round <= rounds && !stopped; round++) { /* the first only tells how often to repeat */
+  for (size_t round = 0; round <= rounds && !stopped; round++) { /* the first only determines the repeats */
     for (size_t k = 0; k < count && !stopped; k++) {
       for (int kind = 0; kind < RAY_KINDS; kind++) {
         if (counts[kind] == 0) continue;
@@ -97,7 +97,7 @@ void pscn_runner_free(struct pscn_runner *runner)
   *runner = (struct pscn_runner){.tracer = NULL};
 }
 
-/* Writes hits or answers where they are asked for. */
+/* Writes hits or answers, whichever are not NULL. */
 static void trace(struct pscn_runner *runner, enum ray_kind kind, struct hit *hits, struct answer *answers)
 {
   const struct ray_list *list = &runner->rays[kind];

@@ -1,5 +1,5 @@
-/* The peers of a chart: plain Newton, which is ours but guards nothing; Embree, by a module where that is built; and
- * POV-Ray, where it is installed. */
+/* The peers of a chart: plain Newton, which is ours but has no safeguards; Embree, by a module if that was built; and
+ * POV-Ray, if installed. */
 #include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
@@ -31,13 +31,13 @@ static enum status ask_plain_newton(struct chart *chart)
 
 /* ---- Embree ---- */
 
-static const unsigned WIDTHS[] = {1, 8, 16}; /* rays at once; the last where the processor has it */
+static const unsigned WIDTHS[] = {1, 8, 16}; /* rays at once; the last if the processor has it */
 enum { WIDTH_COUNT = sizeof WIDTHS / sizeof WIDTHS[0] };
 
 struct embree {
   const struct embree_peer *peer;
   const struct ray_list *lists;
-  struct embree_rays *rays[RAY_KINDS]; /* NULL where there are none of the kind */
+  struct embree_rays *rays[RAY_KINDS]; /* NULL if there are none of the kind */
 };
 
 struct embree_runner {
@@ -47,7 +47,7 @@ struct embree_runner {
   volatile double sink;
 };
 
-/* The answers are those of single rays. */
+/* The answers are those to single rays. */
 static void run_embree(void *context, enum ray_kind kind, struct answer *answers)
 {
   struct embree_runner *runner = context;
@@ -58,7 +58,7 @@ static void run_embree(void *context, enum ray_kind kind, struct answer *answers
     embree->peer->answer(runner->mesh, embree->rays[kind], k, any, &answers[k].t, &answers[k].patch);
 }
 
-/* Each mesh in turn with the yardstick. STATUS_FILE where Embree makes no mesh. */
+/* Measures each mesh in turn with the yardstick. STATUS_FILE if Embree makes no mesh. */
 static enum status measure_side(struct chart *chart, const struct embree *embree, const double (*nets)[4][4][3],
                                 size_t side)
 {
@@ -82,7 +82,7 @@ static enum status measure_side(struct chart *chart, const struct embree *embree
   return status;
 }
 
-/* A mesh of more triangles is left out: it would take more than a gigabyte. */
+/* A mesh of more triangles is left out, because it would take more than a gigabyte. */
 #define MAX_TRIANGLES 8e6
 
 static double triangles(const struct chart *chart, size_t side)
@@ -118,7 +118,7 @@ static enum status ask_embree(struct chart *chart)
     chart_note(chart, "Embree is left out: the scene has no patch that could be cut into triangles.");
     return STATUS_OK;
   }
-  /* It stays loaded: Embree keeps threads of its own. */
+  /* It stays loaded, because Embree keeps threads of its own. */
   void *handle = dlopen(EMBREE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   const struct embree_peer *peer = handle == NULL ? NULL : dlsym(handle, EMBREE_MODULE_SYMBOL);
   if (peer == NULL) {
@@ -137,7 +137,7 @@ static enum status ask_embree(struct chart *chart)
 
 /* ---- POV-Ray ---- */
 
-/* The time of POV-Ray's pixels, without lights and textures, the yardstick after each. */
+/* The time of POV-Ray's pixels, without lights and textures, and of the yardstick after each run. */
 static enum status time_povray(struct chart *chart, struct povray *povray, struct timing *out)
 {
   const double pixels = (double)povray->width * (double)povray->height;

@@ -1,4 +1,4 @@
-/* The model for Newton's method alone; plain_newton_kernel.c walks it. */
+/* The model for Newton's method alone; plain_newton_kernel.c traverses it. */
 #include "chart/plain_newton.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
-/* The floor of the chart: Newton's method in two dimensions on the surface, from the middle of every part of a patch
- * whose box the ray meets, one ray a lane as in the renderer, and nothing else. No resultant, no proof, no second try:
- * what it does not find is lost. Never a way to render.
- */
+/* The baseline of the chart: only Newton's method in two dimensions on the surface, from the middle of every part of a
+ * patch whose box the ray meets, one ray a lane as in the renderer. It has no resultant, no proof and no second try:
+ * what it does not find is lost. Never a way to render. */
 #ifndef PSCN_CHART_PLAIN_NEWTON_H
 #define PSCN_CHART_PLAIN_NEWTON_H
 
@@ -10,9 +9,9 @@
 
 struct plain_newton;
 
-enum { PLAIN_NEWTON_SPLIT = 8 }; /* each patch is cut into so many parts a side */
+enum { PLAIN_NEWTON_SPLIT = 8 }; /* each patch is cut into this many parts a side */
 
-/* Borrows scene and rays[RAY_KINDS]. NULL where memory is short. */
+/* Borrows scene and rays[RAY_KINDS]. NULL if memory is short. */
 struct plain_newton *plain_newton_create(const struct scene *scene, const struct ray_list *rays);
 void plain_newton_destroy(struct plain_newton *plain);
 struct runner plain_newton_face(struct plain_newton *plain);

@@ -1,6 +1,5 @@
-/* Newton's method on two planes through the ray (J. Kajiya, "Ray tracing parametric patches", SIGGRAPH 1982, for the
- * planes), one ray a lane.
- */
+/* Newton's method on two planes through the ray (the planes are from J. Kajiya, "Ray tracing parametric patches",
+ * SIGGRAPH 1982), one ray a lane. */
 #include <float.h>
 #include <math.h>
 
@@ -10,13 +9,13 @@
 #include "chart/plain_newton_kernel.h"
 #include "geometry/vector.h"
 
-#define LAST_STEP 1e-8 /* of a parameter: the error left is of the order of its square */
-#define EDGE 1e-9      /* of a parameter: roots so far outside a part still count, so that none falls between two */
-#define ASTRAY 8       /* half sides of a part: who goes farther is given up */
+#define LAST_STEP 1e-8 /* of a parameter: the remaining error is of the order of its square */
+#define EDGE 1e-9      /* of a parameter: roots this far outside a part still count, so that none is lost between two */
+#define ASTRAY 8       /* in half sides of a part: farther iterates are given up */
 
-/* Relative: where a ray enters a box and where it leaves it are off by three roundings each (the difference, the
- * product and the inverse), and the product with the slack by one more: 7 x 2^-53 in all. With 10 x 2^-53 no ray is
- * lost that only grazes the box. */
+/* Relative. The t at which a ray enters a box, and that at which it leaves, have three roundings each (the difference,
+ * the product and the inverse), and the product with the slack has one more: 7 x 2^-53 in all. With 10 x 2^-53, no ray
+ * that only grazes the box is lost. */
 #define BOX_SLACK (1 + 5 * DBL_EPSILON)
 
 enum { STEPS = 5 };
@@ -39,7 +38,7 @@ LANES_INLINE void weights(lanes u, lanes w[4], lanes d[4])
   d[0] = -3 * ss, d[1] = 3 * (ss - 2 * us), d[2] = 3 * (2 * us - uu), d[3] = 3 * uu;
 }
 
-/* net(u,v), and its derivatives. */
+/* net(u,v) and its derivatives. */
 LANES_INLINE void evaluate(const lanes net[16], const lanes wu[4], const lanes du[4], const lanes wv[4],
                            const lanes dv[4], lanes out[3])
 {
@@ -64,7 +63,7 @@ LANES_INLINE void form_nets(const struct ray_lanes *ray, double (*x)[4][4], lane
   }
 }
 
-/* t of S(u,v), in units of the direction, which is of length 1. */
+/* t of S(u,v), in units of the direction, which has length 1. */
 LANES_INLINE lanes distance(const struct ray_lanes *ray, double (*x)[4][4], lanes u, lanes v)
 {
   lanes wu[4], wv[4], unused[4], t = lanes_all(0);
@@ -112,7 +111,7 @@ static void try_part(const struct plain_model *model, const struct plain_part *p
     if (bits & 1u) best->patch[k] = part->patch;
 }
 
-/* Where the rays enter a child's box; INFINITY for those that do not. */
+/* t at which the rays enter a child's box; INFINITY for those that miss it. */
 LANES_INLINE lanes enter_box(const struct bvh_node *node, int side, const struct ray_lanes *ray, lanes t_max)
 {
   lanes t_min = ray->t_min;
@@ -161,7 +160,7 @@ static void walk(const struct plain_model *model, const struct ray_lanes *ray, b
   }
 }
 
-/* Ray k in lane k; lanes without a ray never hit. length[k]: of the direction. */
+/* Loads ray k into lane k; lanes without a ray never hit. length[k]: that of the direction. */
 static void load(size_t count, const struct ray *rays, struct ray_lanes *out, lanes *out_t_max, double length[LANES])
 {
   for (size_t k = 0; k < LANES; k++) {

@@ -1,4 +1,4 @@
-/* What plain_newton.c and plain_newton_kernel.c share. The kernel is compiled once per instruction set. */
+/* Shared by plain_newton.c and plain_newton_kernel.c. The kernel is compiled once per instruction set. */
 #ifndef PSCN_CHART_PLAIN_NEWTON_KERNEL_H
 #define PSCN_CHART_PLAIN_NEWTON_KERNEL_H
 
@@ -11,12 +11,12 @@ struct plain_part {
 };
 
 struct plain_model {
-  double (*x)[3][4][4]; /* of each patch: control points of the patch, by axis */
+  double (*x)[3][4][4]; /* control points of each patch, by axis */
   struct plain_part *parts;
   struct bvh bvh; /* over the parts */
 };
 
-/* The answers to a packet; for `any`, of some hit. */
+/* The answers to a packet; if `any`, of any hit. */
 typedef void plain_newton_packet(const struct plain_model *model, size_t count, const struct ray *rays, bool any,
                                  struct answer *out);
 

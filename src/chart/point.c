@@ -13,14 +13,14 @@ const char *family_name(enum family family)
 
 static double tolerance_at(int power) { return pow(10, -power); }
 
-/* Points that are written one after the other, or only counted. */
+/* Points that are written one after another, or only counted. */
 struct sweep {
   struct sweep_point *out; /* or NULL */
   size_t count;
   struct sweep_point unused;
 };
 
-/* The next one: the solver as it is by default, which the caller changes. */
+/* Adds the next point: the solver with its defaults, which the caller changes. */
 static struct method *add(struct sweep *sweep, const struct solver *solver, enum family family)
 {
   struct sweep_point *point = sweep->out == NULL ? &sweep->unused : &sweep->out[sweep->count];
@@ -32,7 +32,8 @@ static struct method *add(struct sweep *sweep, const struct solver *solver, enum
 
 static enum start start_at(int number) { return number == 0 ? START_PREVIOUS : START_COLD; }
 
-/* Every combination of one solver. One that finds the real roots only works in its own basis from its own start values. */
+/* Every combination of one solver. One that finds only the real roots works only in its own basis and from its own
+ * start values. */
 static void sweep_solver(struct sweep *sweep, const struct solver *solver, enum family family, bool quick)
 {
   enum { FIRST = 1, LAST = 15, QUICK_STEP = 7 };
@@ -53,7 +54,7 @@ static void sweep_solver(struct sweep *sweep, const struct solver *solver, enum 
       method_item_find("form")->set(method, 0);
     }
   }
-  for (int start = 0; start < starts; start++) { /* whole patches, otherwise as by default */
+  for (int start = 0; start < starts; start++) { /* whole patches, otherwise the defaults */
     struct method *method = add(sweep, solver, family);
     method->split = 1;
     if (!solver->real_only) method->roots.start = start_at(start);
@@ -95,14 +96,14 @@ static bool beats(const struct chart_point *a, const struct chart_point *b)
   return ta <= tb && ea <= eb && (ta < tb || ea < eb);
 }
 
-/* Times whose quartiles overlap are not told apart. */
+/* Times with overlapping quartiles count as equal. */
 static bool ties(const struct chart_point *a, const struct chart_point *b)
 {
   const struct timing *p = &a->time[RAYS_CAMERA], *q = &b->time[RAYS_CAMERA];
   return a->camera.p99_of_all <= b->camera.p99_of_all && p->lower <= q->upper && q->lower <= p->upper;
 }
 
-/* Whether another one is no less exact, and faster by more than the noise. */
+/* Whether another point is no less exact, and faster by more than the noise. */
 static bool clearly_beaten(const struct chart_point *points, size_t count, const struct chart_point *point)
 {
   for (size_t k = 0; k < count; k++)

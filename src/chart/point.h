@@ -1,4 +1,4 @@
-/* A point of a chart, which points there are, and the Pareto front. */
+/* The points of a chart: which there are, and their Pareto front. */
 #ifndef PSCN_CHART_POINT_H
 #define PSCN_CHART_POINT_H
 
@@ -22,8 +22,8 @@ enum { POINT_NAME_SIZE = 160 };
 
 struct chart_point {
   enum family family;
-  char name[POINT_NAME_SIZE]; /* what ran; of pscn the text behind `solver` */
-  char label[12];             /* what stands beside the point in the figure, or "" */
+  char name[POINT_NAME_SIZE]; /* what was run; for pscn, the text behind `solver` */
+  char label[12];             /* the text beside the point in the figure, or "" */
   bool ours;                  /* options is set */
   struct method options;
   struct timing time[RAY_KINDS];
@@ -32,23 +32,23 @@ struct chart_point {
   bool front;
 };
 
-/* The solvers to chart: every one but durand_kerner, basis, start, polish and tolerance that make a difference, and the
- * paper's forms. The first one is the default. Returns how many; out may be NULL. */
+/* The solvers to chart: all except durand_kerner, with each basis, start, polish and tolerance that makes a difference,
+ * and the paper's forms. The first one is the default. Returns their number; out may be NULL. */
 struct sweep_point {
   enum family family;
   struct method options;
 };
 size_t point_sweep(bool quick, struct sweep_point *out);
 
-/* Scales the times of every point to what they are while the yardstick takes yard[kind], its median of the whole run:
- * the median becomes ratio x yard[kind]. What slows the machine down for a while slows the yardstick of the same rounds
- * down as well. */
+/* Scales the times of every point to those at which the yardstick takes yard[kind], its median of the whole run: the
+ * median becomes ratio x yard[kind]. Whatever slows the machine for a while also slows the yardstick of the same
+ * rounds. */
 void point_level(struct chart_point *points, size_t count, const double yard[RAY_KINDS]);
 
-/* Marks the points that no other beats: another one that is no slower and no less exact, and one of both better.
- * Exactness is camera.p99_of_all. Points without both numbers are never on the front. Where noise alone decides, that
- * is, where an earlier point is no less exact and the quartiles of the times overlap, the earliest such point has the
- * place, unless another one beats it by more than that. */
+/* Marks the points that no other one beats: one that is no slower and no less exact, and better in one of the two.
+ * Exactness is camera.p99_of_all. Points without both numbers are never on the front. Where only noise decides, that
+ * is, where an earlier point is no less exact and the quartiles of the times overlap, the earliest such point takes the
+ * place, unless another one beats it by more than noise. */
 void point_front(struct chart_point *points, size_t count);
 
 #endif

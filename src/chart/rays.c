@@ -10,7 +10,7 @@
 static_assert((int)STRIP_HEIGHT == (int)PACKET_HEIGHT && (int)STRIP_WIDTH == (int)TILE_SIZE,
               "a strip is a row of packets in a tile");
 
-/* The picture as strips, counted in the order of the renderer: tile by tile, in a tile from the top. */
+/* The picture as strips, numbered in the renderer's order: tile by tile, and in a tile from the top. */
 struct strips {
   size_t width, height, columns, per_tile;
 };

@@ -1,8 +1,8 @@
-/* The rays a chart is made of: a fixed, even choice of a scene's camera rays, and the shadow rays their hits send.
+/* The rays of a chart: a fixed, even choice of a scene's camera rays, and the shadow rays of their hits.
  *
- * Rays stand in the order the renderer traces them, in packets of neighbouring pixels; a run is one row of packets of a
- * tile, STRIP_WIDTH x STRIP_HEIGHT pixels, and chosen whole, so that packets and warm starts find the coherence they
- * have in a picture.
+ * Rays are in the order in which the renderer traces them, in packets of neighbouring pixels. A run is one row of
+ * packets of a tile, STRIP_WIDTH x STRIP_HEIGHT pixels. Runs are chosen whole, so that packets and warm starts have the
+ * coherence of a picture.
  */
 #ifndef PSCN_CHART_RAYS_H
 #define PSCN_CHART_RAYS_H
@@ -16,7 +16,7 @@
 
 enum { STRIP_WIDTH = 32, STRIP_HEIGHT = 4 };
 
-/* A packet: rays[first .. first + count - 1]. new_run: nothing is remembered from the packet before it. */
+/* A packet: rays[first .. first + count - 1]. new_run: nothing is kept from the packet before it. */
 struct ray_packet {
   size_t first, count;
   bool new_run;
@@ -29,13 +29,13 @@ struct ray_list {
   size_t packet_count;
 };
 
-/* Camera rays of a picture of width x height pixels, through the pixels' middles: about `wanted` of them, all where
- * wanted is at least their number. STATUS_LIMIT where memory is short. Everything lives in `arena`. */
+/* Camera rays of a picture of width x height pixels, through the middles of pixels: about `wanted` of them, or all if
+ * wanted is at least their number. STATUS_LIMIT if memory is short. Everything lives in `arena`. */
 enum status rays_of_camera(const struct scene *scene, size_t width, size_t height, size_t wanted, struct arena *arena,
                            struct ray_list *out) STATUS_MUST_CHECK;
 
-/* The shadow rays that the renderer sends from the hits of `camera`, hits[] being the answers to its rays: packet by
- * packet, one light after the other. */
+/* The shadow rays that the renderer sends from the hits of `camera`, where hits[] are the answers to its rays: packet
+ * by packet, one light after the other. */
 enum status rays_of_shadows(const struct scene *scene, const struct ray_list *camera, const struct hit *hits,
                             struct arena *arena, struct ray_list *out) STATUS_MUST_CHECK;
 

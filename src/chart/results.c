@@ -1,4 +1,4 @@
-/* The files of a chart: what the templates beside this are filled with. */
+/* The files of a chart: the values that fill the templates beside this file. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,17 +13,17 @@
 
 /* ---- the figure ---- */
 
-/* What is drawn for an error below it: no error at all has no place on a logarithmic axis. */
+/* Smaller errors are drawn as this: 0 has no place on a logarithmic axis. */
 #define LEAST_ERROR 1e-17
 
-/* Labels nearer than this in powers of ten, across and up, would stand on each other; a digit is so wide. */
+/* Labels nearer than this, in powers of ten across and up, would overlap; and the width of a digit. */
 #define LABEL_NEAR_X 0.5
 #define LABEL_NEAR_Y 0.06
 #define LABEL_WIDTH 0.3
 
 static const struct look {
   const char *title, *color;
-  int symbol, hollow; /* gnuplot's point types: all answers right, some wrong */
+  int symbol, hollow; /* gnuplot's point types: for points with all answers right, and with some wrong */
 } LOOKS[FAMILIES] = {
   [FAMILY_DEFAULT] = {"bernstein (default)", "#c02020", 7, 6},
   [FAMILY_NEWTON] = {"newton", "#2b6cb0", 9, 8},
@@ -47,7 +47,7 @@ static bool all_right(const struct chart_point *point)
 
 static double error_of(const struct chart_point *point) { return fmax(point->camera.p99_of_all, LEAST_ERROR); }
 
-/* Where a point's label stands: at the point, or right of those before it that are there already. */
+/* The place of a point's label: at the point, or right of the earlier labels that are there. */
 static double label_place(const struct chart *chart, size_t index)
 {
   const struct chart_point *point = &chart->points[index];
@@ -84,7 +84,7 @@ static json_t *method_value(const struct method *method)
                    "split", method->split == 0 ? json_string("auto") : json_sprintf("%d", method->split));
 }
 
-/* A point, for all files; NULL where memory is short. */
+/* A point, for all files; NULL if memory is short. */
 static json_t *point_value(const struct chart *chart, size_t index)
 {
   const struct chart_point *point = &chart->points[index];
@@ -103,8 +103,8 @@ static json_t *point_value(const struct chart *chart, size_t index)
     page_of_number(label_place(chart, index)));
 }
 
-/* The points of a family that are all right, or are not, with their look; null where there are none, NULL where memory is
- * short. */
+/* The points of a family that are all right, or that are not, with their look. JSON's null if there are none, NULL if
+ * memory is short. */
 static json_t *set_value(const struct chart *chart, const json_t *points, enum family family, bool right, bool titled)
 {
   json_t *list = json_array();
@@ -144,7 +144,8 @@ static int by_error(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* The front from the most exact to the fastest, step by step: between points that are all right, and others. */
+/* The front from the most exact to the fastest point, step by step: steps between points that are all right, and
+ * others. */
 static json_t *front_value(const struct chart *chart)
 {
   const struct chart_point **front = calloc(chart->point_count + 1, sizeof *front);
@@ -166,7 +167,7 @@ static json_t *front_value(const struct chart *chart)
 
 /* ---- the page ---- */
 
-/* All that figure and page show; NULL where memory is short. */
+/* All that figure and page show; NULL if memory is short. */
 static json_t *make_values(const struct chart *chart)
 {
   const struct chart_request *request = chart->request;
@@ -194,7 +195,7 @@ enum { CSV, SVG, PAGE, FILES = CHART_FILES };
 
 const char *const chart_files[FILES] = {"chart.csv", "chart.svg", "chart.html"};
 
-/* A figure of an earlier chart goes where this one has none. */
+/* The figure of an earlier chart is removed if this one has none. */
 enum status chart_write(const struct chart *chart, struct text_buffer *out_text)
 {
   struct text_buffer content[FILES] = {{0}};

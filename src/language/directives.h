@@ -4,11 +4,10 @@
 
 #include "language/state.h"
 
-/* Handles the scanner's last token if it is not the grammar's. Returns whether it did, so that the next one is
- * wanted. */
+/* Handles the scanner's last token if it is not the grammar's. Returns whether it did and the next one is wanted. */
 bool directives_pass(struct language *language, int token);
 
-/* Reports a directive that pscn does not have, or that nobody has. */
+/* Reports a directive that pscn, or nobody, has. */
 void directives_tell(struct language *language, int token);
 
 #endif

@@ -1,5 +1,5 @@
 /* From the tree of objects to the list of patches, each with its transforms applied, its texture and its solver; and to
- * the list of copies, which says what runs of patches are one declared object, moved. */
+ * the list of copies, the runs of patches that are one declared object, moved. */
 #ifndef PSCN_LANGUAGE_EXPAND_H
 #define PSCN_LANGUAGE_EXPAND_H
 

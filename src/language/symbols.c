@@ -71,8 +71,8 @@ bool symbol_known(struct language *language, const struct name *name)
 
 /* ---- what is told of names ---- */
 
-/* One reading considers so many names for guesses: half a second's work if all are long. Of the unknown words that
- * declarations hold, most of which are never reported, it guesses for so many. */
+/* The most names that one reading considers for guesses: half a second's work if all are long. And the most guesses for
+ * unknown words that declarations hold, which are mostly never reported. */
 enum { MOST_CONSIDERED = 100000, MOST_GUESSED = 1000 };
 
 void guess_symbols(struct guess *guess, struct language *language)

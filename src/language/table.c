@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/random.h>
 
-enum { FIRST_SIZE = 64, FULL = 4 /* grows if less than 1 of so many slots is free; a miss then looks at 8.5 */ };
+enum { FIRST_SIZE = 64, FULL = 4 /* grows if less than 1 slot in this many is free; a miss then examines 8.5 */ };
 
 __extension__ typedef unsigned __int128 product;
 

@@ -3,7 +3,7 @@
 
 #include "packaging/pages.h"
 
-/* Text between single quotes of a shell; `escaped` are characters that get a backslash besides. */
+/* Writes text for single quotes of a shell; the characters of `escaped` also get a backslash. */
 static void put_quoted(FILE *file, const char *text, const char *escaped)
 {
   for (; *text != '\0'; text++)
@@ -13,7 +13,7 @@ static void put_quoted(FILE *file, const char *text, const char *escaped)
 
 /* ---- bash ---- */
 
-/* The call that offers what an argument can be. */
+/* Writes the call that offers what an argument can be. */
 static void put_bash_argument(FILE *file, const struct argument *argument)
 {
   static const char *const calls[] = {

@@ -1,11 +1,11 @@
-/* Manual pages (man(7)): from the help texts. */
+/* Manual pages (man(7)), made from the help texts. */
 #include <ctype.h>
 #include <string.h>
 
 #include "library/pscn.h"
 #include "packaging/pages.h"
 
-/* Text as roff takes it: no line of it is a request. */
+/* Escapes text for roff, so that no line of it is a request. */
 static void put(FILE *file, const char *text, size_t length)
 {
   for (size_t k = 0; k < length; k++) {
@@ -21,7 +21,7 @@ static void put(FILE *file, const char *text, size_t length)
 
 static void put_text(FILE *file, const char *text) { put(file, text, strlen(text)); }
 
-/* Paragraphs as the help texts have them: those are filled, but lines that are indented stand as they are. */
+/* Writes the paragraphs of the help texts. They are filled, but indented lines stay as they are. */
 static void put_paragraphs(FILE *file, const char *text)
 {
   bool table = false, open = false;

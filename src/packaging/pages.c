@@ -1,4 +1,4 @@
-/* pages FOLDER: writes there, when pscn is built, all that `cmake --install` brings for shells, editors and man. */
+/* pages FOLDER: writes there, when pscn is built, all that `cmake --install` installs for shells, editors and man. */
 #include "packaging/pages.h"
 
 #include <string.h>
@@ -43,7 +43,7 @@ struct argument argument_of_command(const struct command *command)
   return argument;
 }
 
-/* Opens FOLDER/NAME; NULL, told, where it cannot. */
+/* Opens FOLDER/NAME; NULL, after an error, if it cannot. */
 static FILE *begin(const char *folder, const char *name)
 {
   char path[4096];
@@ -79,7 +79,7 @@ int main(int argc, char **argv)
     pages[k].write(file);
     done = end(file, pages[k].name);
   }
-  const struct command *command = NULL; /* first pscn itself */
+  const struct command *command = NULL; /* pscn itself comes first */
   for (size_t k = 0; done; command = command_at(k++)) {
     char name[64] = "pscn.1";
     if (k > 0 && command == NULL) break;

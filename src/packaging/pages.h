@@ -1,4 +1,4 @@
-/* What shells, editors and man read of pscn, written from the tables that the commands and the language use. */
+/* What shells, editors and man read about pscn, written from the tables of the commands and of the language. */
 #ifndef PSCN_PACKAGING_PAGES_H
 #define PSCN_PACKAGING_PAGES_H
 
@@ -6,7 +6,7 @@
 
 #include "command/command.h"
 
-/* The manual page of a command; with NULL that of pscn. */
+/* The manual page of a command, or for NULL that of pscn. */
 void write_manual(const struct command *command, FILE *file);
 
 /* Completions for the shells. */
@@ -14,20 +14,20 @@ void write_bash(FILE *file);
 void write_zsh(FILE *file);
 void write_fish(FILE *file);
 
-/* The words of the scene language coloured: for Vim, and as a TextMate grammar, which VS Code reads. */
+/* The words of the scene language, highlighted: for Vim, and as a TextMate grammar, which VS Code reads. */
 void write_vim(FILE *file);
 void write_textmate(FILE *file);
 
-/* What stands behind an option or a command: a file (of scenes, of pictures), a folder, one of some words, or what
- * nobody can guess. */
+/* The argument of an option or a command: a file (of scenes, of pictures), a folder, one of some words, or something
+ * that cannot be guessed. */
 enum argument_kind { ARGUMENT_OTHER, ARGUMENT_FILE, ARGUMENT_SCENE, ARGUMENT_PICTURE, ARGUMENT_FOLDER, ARGUMENT_WORDS };
 
 struct argument {
   enum argument_kind kind;
-  char words[1024]; /* of ARGUMENT_WORDS, with blanks between them */
+  char words[1024]; /* of ARGUMENT_WORDS, separated by blanks */
 };
 
-/* Of an option that takes one, and of what the command itself takes. */
+/* The argument of an option that takes one, and that of the command itself. */
 struct argument argument_of_option(const struct command *command, const struct command_option *option);
 struct argument argument_of_command(const struct command *command);
 

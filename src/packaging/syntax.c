@@ -1,12 +1,12 @@
-/* The scene language for editors: its words from the tables of the language and of the solvers. */
+/* The scene language for editors: words from the tables of the language and of the solvers. */
 #include <string.h>
 
 #include "language/words.h"
 #include "packaging/pages.h"
 #include "scene/method.h"
 
-/* A word of solver statements, by its number: the names of solvers, of items and of what these can be; NULL behind the
- * last. Some stand there twice. */
+/* A word of solver statements by number: the names of solvers, of items and of their values; NULL behind the last. Some
+ * occur twice. */
 static const char *solver_word(size_t index)
 {
   if (index < solver_count()) return solver_at(index)->name;
@@ -27,7 +27,8 @@ static bool is_solver_word(const char *word)
   return false;
 }
 
-/* All words of a kind, but `solver`, which has rules of its own, and of POV-Ray's others those of solver statements. */
+/* Writes all words of a kind, except `solver`, which has its own rules, and except those of POV-Ray's other words that
+ * solver statements use. */
 static void put_words(FILE *file, enum words_kind kind, const char *between)
 {
   const char *word, *before = "";
