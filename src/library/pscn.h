@@ -23,8 +23,8 @@
  * the nearest with t_min < t < t_max; a miss means that there is none. (Points no farther apart than 2^-95 of their
  * patches, or 2^-105 of t, count as one t; the hit is then on the patch that comes first.) `certain` is 1 where this is
  * proven. It is 0, "grazing", where a change of the input within the rounding of its last digits could turn the answer:
- * at a tangency, at the border of an open surface, or if the ray lies in a surface. A grazing hit is then reported
- * where none can be excluded, except that what may lie on either side of t_min or t_max is left out.
+ * at a tangency, at the border of an open surface, or if the ray lies in a surface. A hit is then reported wherever one
+ * cannot be excluded, except that what may lie on either side of t_min or t_max is left out.
  *
  * A corner of a patch, or a border that is one point, is a given point. A ray that meets it exactly hits it, and the
  * nearest hit is certain even if the surface is open there, but the answer of pscn_all is then grazing. Both are
@@ -111,8 +111,8 @@ struct pscn_options {
   double tolerance;   /* replaces every solver's tolerance; 0: as those say */
   size_t max_memory;  /* limit in bytes for the text and the patches, as estimated before the scene is built: 1500 for a
                          patch of a text, 416 for one of control points. The scene itself takes more. 0: no limit */
-  const char *const *folders;        /* more folders, besides the text's own, in which included files are looked for;
-                                        ended by NULL. Or NULL */
+  const char *const *folders;        /* more folders to search for included files, besides the text's own, ended by
+                                        NULL; or NULL */
   const struct pscn_number *numbers; /* number_count of them */
   size_t number_count;
   int image_width, image_height; /* the values of these words in the text; 0: 800 and 600 */
@@ -207,7 +207,7 @@ struct pscn_hit {
   double point[3];     /* S(u,v), a little more exact than origin + t direction */
   double point_error;  /* bound on the distance from `point` to the exact surface */
   double clearance;    /* see pscn_leave */
-  double normal[3];    /* of unit length, facing the ray's origin; against the ray where the surface has none */
+  double normal[3];    /* of unit length, facing the ray's origin; against the ray if the surface has none */
   double du[3], dv[3]; /* dS/du, dS/dv, to roundings of the patch's size; not numbers if that is near DBL_MAX */
   uint32_t patch;
   int32_t verdict;  /* enum pscn_verdict */
