@@ -64,7 +64,8 @@ static bool confine(void)
                                   LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO |
                                   LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
   const struct landlock_ruleset_attr rules = {.handled_access_fs = WRITING};
-  const struct landlock_path_beneath_attr here = {.allowed_access = WRITING, .parent_fd = open(".", O_RDONLY)};
+  const struct landlock_path_beneath_attr here = {.allowed_access = WRITING,
+                                                  .parent_fd = open(".", O_RDONLY | O_CLOEXEC)};
   const int set = (int)syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0);
   return set >= 0 && here.parent_fd >= 0 &&
          syscall(SYS_landlock_add_rule, set, LANDLOCK_RULE_PATH_BENEATH, &here, 0) == 0 &&

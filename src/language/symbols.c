@@ -314,8 +314,10 @@ void declare_value(struct language *language, struct declaration *declaration, c
   language->symbols->ended = declaration;
   if (!symbol) return;
   if (value->kind == VALUE_NAMED) {
-    symbol->kind = value->symbol->kind;
-    symbol->value = value->symbol->value; /* copies the whole union */
+    const struct symbol *same = value->symbol;
+    symbol->kind = same->kind;
+    if (same->kind == SYMBOL_OBJECT) symbol->object = same->object;
+    else symbol->texture = same->texture, symbol->texture_kind = same->texture_kind;
     return;
   }
   symbol_set(symbol, value);
