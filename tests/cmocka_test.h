@@ -1,4 +1,4 @@
-/* cmocka, after the headers it wants to be included before itself. */
+/* Includes cmocka after the headers that must precede it. */
 #ifndef PSCN_TESTS_CMOCKA_TEST_H
 #define PSCN_TESTS_CMOCKA_TEST_H
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Digits with a decimal point, whatever the locale says; 0 where it is not such a number. */
+/* Parses digits with a decimal point, whatever the locale; returns 0 if the text is no such number. */
 static double parse_decimal(const char *text)
 {
   double value = 0, scale = 1;

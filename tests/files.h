@@ -1,4 +1,4 @@
-/* Files that tests write, and what is in a file. */
+/* Writing files in tests, and checking what a file holds. */
 #ifndef TESTS_FILES_H
 #define TESTS_FILES_H
 
@@ -7,7 +7,7 @@
 
 #include "cmocka_test.h"
 
-/* Makes the file hold these bytes, or this text, and nothing else. */
+/* Makes the file hold exactly these bytes, or this text. */
 static inline void put_bytes(const char *path, const void *bytes, size_t size)
 {
   FILE *file = fopen(path, "wb");
@@ -18,7 +18,7 @@ static inline void put_bytes(const char *path, const void *bytes, size_t size)
 
 static inline void put_text(const char *path, const char *text) { put_bytes(path, text, strlen(text)); }
 
-/* Asserts that the file holds this text, of less than 512 bytes, and nothing else. */
+/* Asserts that the file holds exactly this text, of less than 512 bytes. */
 static inline void expect_file(const char *path, const char *text)
 {
   char held[512];

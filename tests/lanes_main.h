@@ -1,4 +1,4 @@
-/* For tests that are compiled once per instruction set: where the processor lacks it they are skipped. */
+/* For tests that are compiled once per instruction set: they are skipped if the processor lacks it. */
 #ifndef PSCN_TESTS_LANES_MAIN_H
 #define PSCN_TESTS_LANES_MAIN_H
 
@@ -7,7 +7,7 @@
 
 #include "base/kernel.h"
 
-/* What main returns: what run() does, or TEST_SKIP. run() must not be inlined into main, which runs on all. */
+/* main's return value: run()'s, or TEST_SKIP. run() must not be inlined into main, which runs on every processor. */
 static inline int lanes_main(int (*run)(void))
 {
 #if defined(__AVX512F__)

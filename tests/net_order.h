@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* The net with its parameters changed for each other where order has 1, u reversed where it has 2, v where it has 4. */
+/* Reads the net in that order: bit 1 swaps the parameters, bit 2 reverses u, bit 4 reverses v. */
 static inline void in_order(double P[4][4][3], int order, double out[4][4][3])
 {
   for (int n = 0; n < 16; n++) {

@@ -2,8 +2,8 @@
 #ifndef PSCN_TESTS_POWER_NET_H
 #define PSCN_TESTS_POWER_NET_H
 
-/* power[i][j] is that of x^i y^j; x runs across the net's rows. Each is a product of blossoms, that of x^i at node n the mean of the
- * products of i of three numbers, of which n are 1 and the others -1. */
+/* power[i][j] is the coefficient of x^i y^j; x runs across the net's rows. Values are products of blossoms: that of
+ * x^i at node n is the mean of the products of i of three numbers, of which n are 1 and the others -1. */
 static inline void power_net(double power[4][4], double net[4][4])
 {
   static const double blossom[4][4] = {

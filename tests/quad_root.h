@@ -1,4 +1,4 @@
-/* The root of two bicubic polynomials by Newton's method in quadruple precision, for tests. */
+/* For tests: the root of two bicubic polynomials by Newton's method in quadruple precision. */
 #ifndef PSCN_TESTS_QUAD_ROOT_H
 #define PSCN_TESTS_QUAD_ROOT_H
 
@@ -6,7 +6,7 @@
 
 #include "reference/quad.h"
 
-/* From (u,v) on; returns whether it came to rest. */
+/* Iterates from (u,v); returns whether it converged. */
 static inline bool quad_root(const struct quad_net net[2], quad *u, quad *v)
 {
   for (int n = 0; n < 40; n++) {

@@ -26,7 +26,7 @@ static inline double random_between(struct random *random, double low, double hi
   return low + (high - low) * random_unit(random);
 }
 
-/* Any order of them is as likely (R. Durstenfeld, Algorithm 235, 1964). */
+/* Makes every order equally likely (R. Durstenfeld, Algorithm 235, 1964). */
 static inline void random_shuffle(struct random *random, size_t count, size_t order[])
 {
   for (size_t n = count; n-- > 1;) {

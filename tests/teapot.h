@@ -10,7 +10,7 @@
 
 enum { TEAPOT_PATCHES = 32 };
 
-/* The control points as they stand in the scene file: 48 numbers behind each "bicubic_patch". */
+/* Reads the control points in the order of the scene file: 48 numbers after each "bicubic_patch". */
 static inline void teapot_read(double out[TEAPOT_PATCHES][4][4][3])
 {
   char text[1 << 15];

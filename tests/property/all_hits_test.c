@@ -1,5 +1,5 @@
-/* All hits of a ray: against nearest hits asked for one after the other, within parts of the ray, in any company, with
- * every instruction set; very many of them. */
+/* All hits of a ray are the nearest hits asked for one after the other. They do not depend on the ray's ends, the
+ * rays beside it or the instruction set. There may be thousands. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { SEED = 20240514, SCENES = 3, MOST_HITS = 200 };
 
-/* What is to be kept of a list when the next one is asked for. */
+/* A copy of a list, for a list is gone when the next one is asked for. */
 struct kept {
   enum certainty certainty;
   size_t count;
@@ -37,7 +37,7 @@ static bool same_list(const struct kept *a, const struct hit_list *b)
   return same;
 }
 
-/* All hits of each ray by itself; they are gone at the next call. */
+/* All hits of each ray alone; valid until the next call. */
 static const struct kept *lists_alone(const struct set_up *s)
 {
   static struct kept alone[STAGE_RAYS];
@@ -52,15 +52,15 @@ static void print_lists(const char *what, int kind, const struct ray *ray, const
   for (size_t k = 0; k < a->count; k++) print_message("  %.17g on %u\n", a->hits[k].t, a->hits[k].patch);
 }
 
-/* One that lies on the line where leaves of a patch meet may be that of either leaf. */
+/* A hit on the line where leaves of a patch meet may be reported by either leaf. */
 static bool same_but_for_rounding(const struct hit *a, const struct hit *b)
 {
   return a->patch == b->patch && fabs(a->t - b->t) <= 0x1p-51 * b->t && fabs(a->u - b->u) <= 0x1p-36 &&
          fabs(a->v - b->v) <= 0x1p-36;
 }
 
-/* The first of them is the nearest hit, nearly always to the last bit, but where patches of one plane are hit at once by lines
- * where leaves meet; the others are the nearest ones behind it. */
+/* The first one is the nearest hit, to the last bit except where patches of one plane are hit on lines where leaves
+ * meet, and in rare cases. The others are the nearest ones behind it. */
 static void one_by_one(struct set_up *s)
 {
   const struct kept *alone = lists_alone(s);
@@ -97,8 +97,8 @@ static void they_are_the_nearest_one_by_one(void **state)
 
 enum { FOLDED_RAYS = 400 };
 
-/* The same of a patch that is folded on the line v = 1/2, and met twice in each point: at one u, but for what is known of
- * it. */
+/* The same for a patch that is folded along v = 1/2 and met twice in each point: both hits have the same u, within
+ * its error. */
 static void folded_patches_too(void **state)
 {
   (void)state;
@@ -140,8 +140,7 @@ static void fill_box(world_net nets[6])
 
 enum { CORNER_RAYS = 1000 };
 
-/* And of rays through a corner: it belongs to the first of its patches, whichever of them the ray comes
- * by first. */
+/* Also for rays through a corner: it belongs to the first of its patches, whichever of them the ray reaches first. */
 static void corners_too(void **state)
 {
   (void)state;
@@ -172,7 +171,7 @@ static void corners_too(void **state)
   assert_true(certain > CORNER_RAYS / 20);
 }
 
-/* Those of a part of the ray are those of the whole that are in it. */
+/* The hits of a part of the ray are the hits of the whole ray within that part. */
 static void parts(struct set_up *s)
 {
   const struct kept *alone = lists_alone(s);
@@ -204,7 +203,7 @@ static void parts_of_a_ray_have_theirs(void **state)
 }
 
 struct alone {
-  const struct kept *lists; /* of each ray by itself */
+  const struct kept *lists; /* of each ray alone */
   int wrong;
 };
 
@@ -232,7 +231,7 @@ static void lists_do_not_depend_on_companions(void **state)
   on_all_stages(SEED + 2, SCENES, companions);
 }
 
-/* Every instruction set counts the same, and finds them on the same patches, where it is certain. */
+/* Where the answer is certain, every instruction set counts the same hits and finds them on the same patches. */
 static void kernels(struct set_up *s)
 {
   const struct kept *alone = lists_alone(s);
@@ -261,8 +260,8 @@ static void kernels_agree(void **state)
   on_all_stages(SEED + 3, SCENES, kernels);
 }
 
-/* A stack of sheets, its lowest one first: a hit each, in their order; exactly through their corners, four to a layer,
- * a hit each layer, of the first of the four. */
+/* A stack of sheets, the lowest one first: a ray through them has one hit on each, in order. A ray exactly through
+ * their corners, four to a layer, has one hit a layer, on the first of the four. */
 static void test_stack(void **state)
 {
   (void)state;
@@ -304,8 +303,8 @@ static void test_stack(void **state)
   free(nets);
 }
 
-/* Two patches that bend at a border, and one through all of that: of hits that nothing tells apart the first in the scene is
- * the nearest, as it is the first of all; whatever it is that stands there. */
+/* Two patches that bend at a border, and one that crosses both there. Of hits that nothing tells apart, the first in
+ * the scene is the nearest and the first of all hits, whichever patch it is on. */
 static void test_standing_on(void **state)
 {
   enum { WALLS = 2, FLOOR = 2, ORDERS = 6, PACKETS = 8 };
@@ -357,8 +356,8 @@ static struct hit_list list_of(struct world *world, const struct ray *ray)
   return list;
 }
 
-/* What only touches a surface is not counted for certain: a bowl touched at its bottom, a sheet met along a line, a
- * start on a surface. Beside them it is. */
+/* A contact with a surface is not certain: a bowl touched at its bottom, a sheet met along a line, a start on a
+ * surface. Beside it the answer is. */
 static void test_touching(void **state)
 {
   (void)state;
@@ -388,8 +387,8 @@ static void test_touching(void **state)
   world_close(&world);
 }
 
-/* What may be a hit is one for all hits and for the nearest wherever the ray's ends are, though t's double is at an end: a tip,
- * and an open border. */
+/* All hits and the nearest hit agree on a possible hit whose t, as a double, equals an end of the ray: at a tip, and
+ * on an open border. */
 static void test_next_to_an_end(void **state)
 {
   (void)state;
@@ -400,8 +399,8 @@ static void test_next_to_an_end(void **state)
   }
   struct world world;
   world_open(&world, net, 1, NULL);
-  static const struct ray third = {{0, 0, 1}, {0, 0, -3}, 1.0 / 3, INFINITY}, /* of a double below it */
-    fifth = {{0, 0, 1}, {0, 0, -5}, 0, 1.0 / 5};                              /* above it */
+  static const struct ray third = {{0, 0, 1}, {0, 0, -3}, 1.0 / 3, INFINITY}, /* 1/3 as a double is below it */
+    fifth = {{0, 0, 1}, {0, 0, -5}, 0, 1.0 / 5};                              /* 1/5 as a double is above it */
   for (int border = 0; border < 2; border++) {
     for (int n = 0; n < 2; n++) {
       struct ray ray = n ? fifth : third;
@@ -418,15 +417,16 @@ static void test_next_to_an_end(void **state)
   world_close(&world);
 }
 
-/* Six patches that go twice round a point: a ray through it meets two sheets there, which is not one hit. A ray beside
- * it has two. */
+/* Six patches that go twice round a point. A ray through it meets two sheets there, which are not one hit. A ray
+ * beside it has two hits. */
 static void test_twice_round(void **state)
 {
   (void)state;
   static const double way[3][2] = {{18, 0}, {-9, 18}, {-9, -18}};
   world_net nets[6];
   for (int p = 0; p < 6; p++)
-    for (int n = 0; n < 16; n++) { /* (i a_p + j a_(p+1))/3, a_p being the p-th of six ways, each of its own height */
+    for (int n = 0; n < 16; n++) { /* (i a_p + j a_(p+1))/3, a_p being the p-th of six directions, each at its own
+                                    * height */
       const int i = n / 4, j = n % 4, q = (p + 1) % 6;
       for (int k = 0; k < 2; k++) nets[p][i][j][k] = (i * way[p % 3][k] + j * way[q % 3][k]) / 3;
       nets[p][i][j][2] = i * p + j * q;
@@ -440,7 +440,8 @@ static void test_twice_round(void **state)
   world_close(&world);
 }
 
-/* Patches along one line: rays along it cost more than they may. What is told of them then is told of each alone, too. */
+/* Rays along patches that lie on one line cost more than their share of work. Their answers are then the same in a
+ * packet as alone. */
 static void test_worn(void **state)
 {
   enum { PATCHES = 5, PACKETS = 12 };

@@ -1,8 +1,8 @@
-/* Rays at the border that two patches share, near and far from the origin, for all true bidegrees, judged by the
+/* Rays at the border that two patches share, near the origin and far from it, for all true bidegrees, judged by the
  * reference.
  *
- * Away from the origin a patch of low degree is one only within its rounding; a resultant formed at the low degree
- * without an error for that once dismissed both patches (certain misses, 22 of 4,000 rays at 1e6). */
+ * Away from the origin a patch has a low degree only up to rounding. A resultant that was formed at the low degree,
+ * without an error term for that, once dismissed both patches (certain misses, 22 of 4,000 rays at 1e6). */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 
 enum { SEED = 20240512, SCENES = 4, RAYS = 80, SHEETS = 1200 };
 
-/* A cubic row out of one of degree n, in place. */
+/* Raises a cubic row from degree n to 3, in place. */
 static void raise(quad c[4], int n)
 {
   for (int d = n; d < 3; d++)
@@ -55,7 +55,7 @@ static void pair(struct random *random, int m, int n, double offset, world_net n
   for (int j = 0; j < 4; j++) memcpy(nets[1][0][j], nets[0][3][j], sizeof nets[1][0][j]);
 }
 
-/* A ray at the border, off it by some last places of the coordinates. */
+/* A ray at the border, or off it by some last places of the coordinates. */
 static struct ray border_ray(struct random *random, world_net net, double offset)
 {
   struct ray ray = {{0}, {0}, 0, INFINITY};
@@ -96,7 +96,7 @@ static void shared_borders_do_not_leak(void **state)
         if (want.verdict != REFERENCE_HIT) continue;
         hits++;
         if (got.patch != HIT_NONE) {
-          /* Over the sine of the angle at which the surface is met; relative to t, which is about the scene's size. */
+          /* Times the sine of the angle of incidence; relative to t, which is about the scene's size. */
           struct facts facts;
           facts_find((const double(*)[4][3])nets[want.patch], ray.origin, ray.direction, want.t, want.u, want.v,
                      &facts);
@@ -117,8 +117,8 @@ static void shared_borders_do_not_leak(void **state)
   assert_true(worst < 1e-13);
 }
 
-/* One of the four patches, bent and aslant, of a sheet that have a corner at z on the z axis, all coordinates exact; `quarter` bit
- * 0: that at x > 0, bit 1: at y > 0. */
+/* One of the four patches, bent and slanted, of a sheet; all have a corner at z on the z axis, and exact
+ * coordinates. Bit 0 of `quarter`: the patch at x > 0; bit 1: at y > 0. */
 static void quarter_sheet(unsigned quarter, double z, double slope, double bend, world_net out)
 {
   for (int n = 0; n < 16; n++) {
@@ -128,10 +128,10 @@ static void quarter_sheet(unsigned quarter, double z, double slope, double bend,
   }
 }
 
-/* Rays along the axis of a stack of sheets, which stand in the scene in no order, meet each of them in a corner of all of its
- * patches, or where two of them meet: many more places than a ray has room for are left to the last resort. What is behind
- * the first sheet does not matter, be the ray alone or not, nor which box the walk comes to first: aslant they are long
- * along the axis. */
+/* A stack of sheets, in no order in the scene. Rays along its axis meet each sheet in a corner of all its patches,
+ * or where two of them meet, so far more places are left to the last resort than a ray has room for. The answer
+ * depends only on the first sheet: not on those behind it, nor on the rays beside it, nor on which box the walk
+ * reaches first. The sheets slant, so the boxes are long along the axis. */
 static void a_stack_is_met_on_its_first_sheet(void **state)
 {
   enum { RAYS_ALONG = 6, APART = 90 };

@@ -1,4 +1,4 @@
-/* Copies of an object that share its leaves give the answers of patches that have leaves of their own. */
+/* Copies of an object that share its leaves are answered as patches with leaves of their own. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,14 +15,14 @@ enum {
   RAYS = 256,
   PATCHES = 1100,
   PACKET = 8,
-  FULL_FAR_SCENES = 6000, /* of such scenes nearly all is to prepare them */
+  FULL_FAR_SCENES = 6000, /* preparing such a scene takes nearly all of the time */
   LEAST_FAR_SCENES = 4,
   BESIDE = 6,
   FULL_BESIDE_SCENES = 2000,
   LEAST_BESIDE_SCENES = 2
 };
 
-/* What U and V of a certain hit that is not seen edge-on may differ by. */
+/* How much U and V of a certain hit that is not seen edge-on may differ. */
 #define SAME_PLACE 1e-12
 
 /* A scene of many copies of one object, with and without its list of copies. */
@@ -38,7 +38,7 @@ struct pair {
 
 typedef void place_copy(struct random *random, struct scene_copy *copy);
 
-/* Any affine map: turned, skew, mirrored, long and short, far away. */
+/* Any affine map: rotated, skewed, mirrored, long or short, far away. */
 static void random_map(struct random *random, struct scene_copy *copy)
 {
   const double size = ldexp(1, (int)(random_bits(random) % 13) - 6);
@@ -48,13 +48,13 @@ static void random_map(struct random *random, struct scene_copy *copy)
   }
 }
 
-/* Any such map about 0, of one size: all are deep in one another. */
+/* Any such map about 0, of one size, so that all copies lie deep inside one another. */
 static void about_zero(struct random *random, struct scene_copy *copy)
 {
   for (int n = 0; n < 9; n++) copy->A[n / 3][n % 3] = random_between(random, -1, 1);
 }
 
-/* A shear along one axis, by so much at most, and whole numbers throughout: control points stay exact. */
+/* A shear along one axis, by at most MOST_SHEAR, in whole numbers throughout, so that control points stay exact. */
 #define MOST_SHEAR 512
 
 static void exact_shear(struct random *random, struct scene_copy *copy)
@@ -65,7 +65,8 @@ static void exact_shear(struct random *random, struct scene_copy *copy)
   for (int n = 0; n < 3; n++) copy->b[n] = rint(random_between(random, -4096, 4096));
 }
 
-/* Larger or smaller, about 0, and turned some way: not deep in one another, or they would not share, where they are long. */
+/* Scales about 0 and permutes the axes. Where copies are long, they are not deep inside one another; else they would
+ * not share. */
 static void exact_scale(struct random *random, struct scene_copy *copy)
 {
   const double size = ldexp(1, (int)(random_bits(random) % 8) - 4);
@@ -85,7 +86,7 @@ static void moved(const struct scene_copy *copy, world_net from, world_net to)
   }
 }
 
-/* Moved only, so that a corner comes next to where the ray passes. */
+/* A translation that puts a corner next to where the ray passes. */
 static void put_in_the_way(const struct ray *ray, double far, world_net net, struct random *random,
                            struct scene_copy *copy)
 {
@@ -98,7 +99,7 @@ static void put_in_the_way(const struct ray *ray, double far, world_net net, str
   }
 }
 
-/* Where the first copy is, but for some roundings along one axis. */
+/* The place of the first copy, moved by some roundings along one axis. */
 static void put_beside(const struct scene_copy *first, struct random *random, struct scene_copy *copy)
 {
   double *b = &copy->b[random_bits(random) % 3];
@@ -106,9 +107,9 @@ static void put_beside(const struct scene_copy *first, struct random *random, st
   *b *= 1 + (double)(1 + random_bits(random) % 4) * 0x1p-52;
 }
 
-/* far: NULL, or a ray whose way leads past the first copy, at t = `at`. beside: 0, or how many stand in one place but for
- * roundings; the rays are aimed at these then. parts: how large all patches but the first are, as a part of what they are; the first is
- * beside them then. */
+/* far: NULL, or a ray that passes the first copy at t = `at`. beside: 0, or how many copies stand in one place up to
+ * roundings; the rays are then aimed at these. parts: the factor by which all patches but the first are scaled; the
+ * first is then beside them. */
 static void pair_open(struct pair *pair, int kind, struct random *random, const struct ray *far, double at,
                       size_t beside, place_copy *place, double parts)
 {
@@ -179,11 +180,11 @@ static void compare(struct pair *pair)
                 certain[1]);
   assert_int_equal(wrong, 0);
   assert_true(hits > RAYS / 8);
-  /* What is undecidable in the object is decided in the scene. */
+  /* Rays that are undecidable in the object are decided in the scene. */
   assert_true(certain[0] >= certain[1] - RAYS / 200);
 }
 
-/* All hits: as many, at the same places, on the same patches. */
+/* All hits: equally many, at the same places, on the same patches. */
 static void compare_all(struct pair *pair)
 {
   int wrong = 0, certain = 0;
@@ -204,7 +205,7 @@ static void compare_all(struct pair *pair)
   assert_true(certain > RAYS / 4 || pair->kind == WORLD_DEGENERATE);
 }
 
-/* Alone, in company, as any hit. */
+/* Alone, in packets, and as any hit. */
 static void company(struct pair *pair)
 {
   int wrong = 0;
@@ -222,7 +223,7 @@ static void company(struct pair *pair)
   assert_int_equal(wrong, 0);
 }
 
-/* A ray that leaves a surface does not meet it where it left: what it meets is what it meets without sharing. */
+/* A ray that leaves a surface does not meet it where it left: its hits are those without sharing. */
 static void leave(struct pair *pair)
 {
   struct random random = {SEED};
@@ -244,8 +245,8 @@ static void leave(struct pair *pair)
   assert_int_equal(wrong, 0);
 }
 
-/* Of every kind of scene, or every other where the effort is small (PSCN_SEED: which), for they take far longer to prepare than to
- * ask. */
+/* Every kind of scene, or every other one if the effort is small (PSCN_SEED chooses), for preparing these takes far
+ * longer than asking. */
 static void each_kind(uint64_t seed, place_copy *place)
 {
   static struct pair pair;
@@ -267,14 +268,14 @@ static void copies_answer_as_patches_of_their_own(void **state)
   each_kind(SEED, random_map);
 }
 
-/* Then all that is off is the ray on its way to the object, which a shear makes much of. */
+/* Then only the ray, mapped to the object, is off; a shear enlarges that error. */
 static void sheared_copies_answer_as_patches_of_their_own(void **state)
 {
   (void)state;
   each_kind(SEED + 5, exact_shear);
 }
 
-/* Whether both answers to the ray are one where they are certain; *certain counts hits on which they are. */
+/* Whether both answers to the ray agree where they are certain; *certain counts the hits on which they do. */
 static bool same_from_far(const struct pair *pair, const struct ray *ray, struct hit hits[2], int *certain)
 {
   for (int k = 0; k < 2; k++) tracer_closest(pair->tracer[k], 1, ray, &hits[k]);
@@ -286,8 +287,8 @@ static bool same_from_far(const struct pair *pair, const struct ray *ray, struct
   return !sure || hit == (hits[1].patch != HIT_NONE);
 }
 
-/* From so far away that twice the precision does not see the copy: the place on it has all its digits all the same. And
- * so where the ray begins just before it, or just behind, at a t whose last place is larger than the copy. */
+/* From so far away that double-double does not resolve the copy, the place on it has all its digits nevertheless. So
+ * it has if the ray begins just before the copy, or just behind it, at a t whose last place is larger than the copy. */
 static void rays_meet_copies_from_very_far_away(void **state)
 {
   (void)state;
@@ -314,8 +315,8 @@ static void rays_meet_copies_from_very_far_away(void **state)
   assert_true(certain[0] > scenes / 4 && certain[1] > scenes / 4);
 }
 
-/* Of surfaces that are some roundings apart the nearest is known for certain, or not at all: also where what is known in the
- * object's coordinates does not tell in which of two leaves the root is. */
+/* Of surfaces that are some roundings apart, the nearest is known for certain or not at all. This holds even where
+ * the errors in the object's coordinates leave open which of two leaves has the root. */
 static void nearest_of_copies_beside_each_other(void **state)
 {
   (void)state;
@@ -339,7 +340,7 @@ static void nearest_of_copies_beside_each_other(void **state)
   assert_true(certain > scenes * RAYS / 2);
 }
 
-/* What is small beside the whole of its object is as certain in copies as by itself. */
+/* A patch that is small beside the whole object is as certain in copies as by itself. */
 static void small_parts_of_copies_are_certain(void **state)
 {
   (void)state;
@@ -353,7 +354,8 @@ static void small_parts_of_copies_are_certain(void **state)
   }
 }
 
-/* Where they are deep in one another they do not share leaves: each ray would be taken to the coordinates of nearly all. */
+/* Copies that lie deep inside one another do not share leaves: each ray would be mapped to the coordinates of nearly
+ * all of them. */
 static void deep_copies_have_leaves_of_their_own(void **state)
 {
   (void)state;
@@ -368,8 +370,8 @@ static void deep_copies_have_leaves_of_their_own(void **state)
   pair_close(&pair);
 }
 
-/* The object's leaves are met no farther from a copy's surface than is told, and than who leaves the surface keeps off it: here
- * at the control points, which are rounded where those of leaves are not. */
+/* The object's leaves are no farther from a copy's surface than `loose` says, which is also how far rays that leave
+ * the surface start from it. The control points show it: they are rounded, those of leaves are not. */
 static void leaves_are_no_looser_than_told(void **state)
 {
   (void)state;

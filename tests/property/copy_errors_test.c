@@ -1,5 +1,5 @@
-/* What leaves of an object leave open at the borders of its copies is all that is off there: how far the copies' control points are
- * from the object's, and rays, in its coordinates, from where they should be. */
+/* Hits at the borders of copies that share leaves. Only two errors matter there: how far the copies' control points
+ * are from the object's, and how far rays in its coordinates are from where they should be. */
 #include <math.h>
 #include <string.h>
 
@@ -7,13 +7,13 @@
 #include "intersect/model.h"
 #include "property/world.h"
 
-/* So many copies that they share leaves, of one patch, apart from one another. */
+/* Copies of one patch, apart from one another, and enough of them to share leaves. */
 enum { SEED = 20261126, COPIES = 1100, ASKED = 8, RAYS = 1024 };
 
-/* As copies they are shared for where no control point is farther off, in parts of the object (copies.c). */
+/* Copies share leaves only if no control point is farther off than this part of the object (copies.c). */
 #define MOST_OFF 0x1p-30
 
-/* All copies, which share leaves, and the first ones, which do not. */
+/* All copies, which share leaves, and the first few alone, which do not. */
 struct sharing {
   world_net nets[WORLD_MAX]; /* the first is the object's */
   struct method solver;
@@ -25,8 +25,8 @@ struct sharing {
   struct tracer *tracer[2];
 };
 
-/* sizes: along the axes, powers of two, so that maps are exact. off: how far control points are from where the map has them, at
- * most; one of the last copy is so far off that it does not share. */
+/* sizes: along the axes, powers of two, so that maps are exact. off: how far, at most, control points are from where
+ * the map puts them. One control point of the last copy is so far off that this copy does not share. */
 static void sharing_open(struct sharing *sharing, struct random *random, const double sizes[3], double off)
 {
   memset(sharing, 0, sizeof *sharing);
@@ -63,7 +63,7 @@ static void sharing_close(struct sharing *sharing)
   for (int k = 0; k < 2; k++) tracer_destroy(sharing->tracer[k]), intersector_destroy(sharing->intersector[k]);
 }
 
-/* A point of a border, but for roundings. */
+/* A point of a border, up to roundings. */
 static void border_point(struct random *random, world_net net, double point[3])
 {
   const double x = random_unit(random), y = 1 - x, b[4] = {y * y * y, 3 * x * y * y, 3 * x * x * y, x * x * x};
@@ -74,7 +74,7 @@ static void border_point(struct random *random, world_net net, double point[3])
   }
 }
 
-/* Rays that pass a border as near as that, or far nearer, meet what they meet without sharing. */
+/* Rays that pass a border at that distance, or at a far smaller one, have the hits that they have without sharing. */
 static void pass_borders(struct sharing *sharing, struct random *random, double near)
 {
   int wrong = 0, certain[2] = {0};
@@ -100,7 +100,7 @@ static void pass_borders(struct sharing *sharing, struct random *random, double 
   assert_true(certain[0] > RAYS - RAYS / 100 && certain[1] > RAYS - RAYS / 100);
 }
 
-/* Control points that are off by what copies are shared for. */
+/* The control points are off by as much as copies may be that share. */
 static void copies_are_met_where_they_are(void **state)
 {
   (void)state;
@@ -111,8 +111,8 @@ static void copies_are_met_where_they_are(void **state)
   sharing_close(&sharing);
 }
 
-/* Nothing but the start of a ray is off, in coordinates in which it is as far from the object as the copy is long, times how much
- * wider the object is. */
+/* Here only the start of a ray is off. In the object's coordinates it is as far from the object as the copy is long,
+ * times how much wider the object is. */
 static void slender_copies_are_met_up_to_their_borders(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
-/* How many surfaces lines cross in a tree, against lines that cross them; and that answers do not depend on the order in which
- * trees with many of them are walked. */
+/* The estimate of how many surfaces a line crosses in a tree is right, compared with random lines; and answers do
+ * not depend on the order in which trees with many crossings are walked. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,7 +8,7 @@
 
 enum { SEED = 20261124, NETS = 250 * WORLD_MAX };
 
-/* So many scenes of wild nets in one place, in leaves so small that a line comes by hundreds of their boxes. */
+/* NETS wild nets in one place, in leaves so small that a line passes hundreds of their boxes. */
 static void open_deep(struct world *world, struct random *random, world_net nets[NETS])
 {
   struct method options;
@@ -59,7 +59,8 @@ static bool meets(const double lo[3], const double hi[3], const struct ray *line
   return from <= to;
 }
 
-/* Lines that are as likely anywhere and in any direction: through a random point of a sphere's disk across a random direction. */
+/* Lines equally likely anywhere and in any direction: each goes through a random point of a sphere's disk, across a
+ * random direction. */
 static double crossings_by_lines(struct world *world, struct random *random)
 {
   double lo[3], hi[3], middle[3], radius = 0;
@@ -84,7 +85,7 @@ static double crossings_by_lines(struct world *world, struct random *random)
   return (double)crossings / (double)lines;
 }
 
-/* The area of a leaf is a little smaller than that of the face of the box along it. */
+/* A leaf's area is a little smaller than that of the face of the box along it. */
 static void lines_cross_as_many(void **state)
 {
   static const enum world_kind kinds[] = {WORLD_GRID, WORLD_WILD, WORLD_DOME, WORLD_LOW};
@@ -111,7 +112,7 @@ struct answers {
   uint64_t tested;
 };
 
-/* `together` rays at once. */
+/* Asks `together` rays at once. */
 static void ask(struct world *world, const struct ray rays[RAYS], size_t together, struct answers *out)
 {
   const uint64_t before = world->tracer->counts.patches_tested;
@@ -120,7 +121,7 @@ static void ask(struct world *world, const struct ray rays[RAYS], size_t togethe
   out->tested = world->tracer->counts.patches_tested - before;
 }
 
-/* Rays side by side, so that a packet's stay together, and rays in all directions. */
+/* Rays side by side, which stay together in packets, and rays in all directions. */
 static void make_rays(struct random *random, struct ray rays[RAYS])
 {
   for (int n = 0; n < RAYS; n++) {

@@ -1,5 +1,5 @@
-/* Flat patches over one another in one plane across an axis: the nearest is the one that stands first, as all hits have it,
- * and the last resort is not needed to say so. */
+/* Flat patches on one another in one plane across an axis: the nearest is the first in the scene, as all hits say,
+ * and this needs no last resort. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@
 
 enum { SEED = 20261126, SCENES = 40, RAYS = 64, PACKET = 8, MOST = 24 };
 
-/* A patch of that plane, somewhere within 2 of the middle: four corners, and bent borders within the plane. */
+/* A patch in that plane, somewhere within 2 of the middle: four corners, and borders bent within the plane. */
 static void flat_net(struct random *random, int axis, double value, world_net out)
 {
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;
@@ -23,13 +23,13 @@ static void flat_net(struct random *random, int axis, double value, world_net ou
   }
 }
 
-/* Bent a little out of it. */
+/* Bends it a little out of the plane. */
 static void bend_net(struct random *random, int axis, world_net net)
 {
   for (int n = 0; n < 16; n++) net[n / 4][n % 4][axis] += random_between(random, -0.1, 0.1);
 }
 
-/* From nearby, or so far away that t is not known to its last places. */
+/* A ray from nearby, or from so far away that t is not known to its last places. */
 static struct ray ray_at(struct random *random, int axis, double value)
 {
   struct ray ray = {.t_max = INFINITY};
@@ -83,7 +83,8 @@ static void the_first_of_a_plane_is_the_nearest(void **state)
   assert_true(hits > SCENES * RAYS / 2);
 }
 
-/* A patch of that plane that is folded over itself, so that a ray meets it up to three times, and Newton's method does not do. */
+/* A patch in that plane, folded over itself, so that a ray meets it up to three times and Newton's method does not
+ * suffice. */
 static void folded_net(struct random *random, int axis, double value, world_net out)
 {
   flat_net(random, axis, value, out);
@@ -92,7 +93,7 @@ static void folded_net(struct random *random, int axis, double value, world_net 
     out[n / 4][n % 4][x] = random_between(random, -1, 1), out[n / 4][n % 4][y] = random_between(random, -1, 1);
 }
 
-/* Some of them in one plane. */
+/* A scene of some of them in one plane. */
 static void open_folded(struct random *random, int axis, double value, struct world *world)
 {
   enum { FEW = 3 };
@@ -101,7 +102,7 @@ static void open_folded(struct random *random, int axis, double value, struct wo
   world_open(world, nets, FEW, NULL);
 }
 
-/* What is open of a patch behind it does not make it grazing, whichever of both the ray comes to first. */
+/* An open question about a patch behind the plane does not make the hit grazing, whichever the ray reaches first. */
 static void what_stands_behind_in_a_plane_is_no_doubt(void **state)
 {
   (void)state;
@@ -123,7 +124,7 @@ static void what_stands_behind_in_a_plane_is_no_doubt(void **state)
   assert_true(hits > SCENES * RAYS / 8);
 }
 
-/* A ray that starts in a plane exactly meets nothing of it, as one does that starts a little behind it. */
+/* A ray that starts exactly in a plane meets nothing of it; nor does one that starts a little behind it. */
 static void what_starts_in_a_plane_leaves_it(void **state)
 {
   (void)state;
@@ -145,7 +146,7 @@ static void what_starts_in_a_plane_leaves_it(void **state)
       behind = ray, behind.t_min = 0x1p-20;
       struct hit hit = world_closest(&world, &ray);
       const struct hit next = world_closest(&world, &behind);
-      touching += hit.certainty == CERTAINTY_GRAZING; /* for it touches what it starts on */
+      touching += hit.certainty == CERTAINTY_GRAZING; /* the ray touches what it starts on */
       hit.certainty = CERTAINTY_CERTAIN;
       assert_same_hit("start", 0, &ray, &hit, &next);
       hits += hit.patch != HIT_NONE;
@@ -156,7 +157,7 @@ static void what_starts_in_a_plane_leaves_it(void **state)
   assert_true(hits > SCENES * RAYS / 8 && touching > SCENES * RAYS / 2);
 }
 
-/* However slowly the ray leaves its plane, and whatever is open of what lies there: it meets nothing of that. */
+/* However slowly a ray leaves its plane, and whatever is open about the patches there, it meets none of them. */
 static void what_leaves_a_plane_slowly_does_not_meet_it(void **state)
 {
   (void)state;
@@ -176,7 +177,8 @@ static void what_leaves_a_plane_slowly_does_not_meet_it(void **state)
         ray.origin[k] = random_between(&random, -3, 3);
         ray.direction[k] = random_between(&random, -0.5, 0.5) - ray.origin[k];
       }
-      ray.origin[(axis + 1) % 3] = copysign(random_between(&random, 1, 3), ray.origin[(axis + 1) % 3]); /* beside all */
+      ray.origin[(axis + 1) % 3] = copysign(random_between(&random, 1, 3), ray.origin[(axis + 1) % 3]); /* beside all
+                                                                                                         * patches */
       ray.origin[axis] = 0.3, ray.direction[axis] = ldexp(1, -n % 60);
       const struct hit hit = world_closest(&world, &ray);
       tracer_occluded(world.tracer, 1, &ray, &occluded);
@@ -191,8 +193,8 @@ static void what_leaves_a_plane_slowly_does_not_meet_it(void **state)
   }
 }
 
-/* What starts in the box of what lies there may touch it, and that is the same however it leaves: no hit, and grazing where one
- * is that leaves straight across. */
+/* A ray that starts in the box of a patch of the plane may touch the patch. The answer does not depend on how it
+ * leaves: no hit, and grazing if a ray that leaves straight across is grazing. */
 static void what_leaves_a_plane_slowly_is_judged_where_it_starts(void **state)
 {
   (void)state;
@@ -227,7 +229,7 @@ static void what_leaves_a_plane_slowly_is_judged_where_it_starts(void **state)
   assert_true(touching > SCENES * RAYS / 8 && touching < SCENES * RAYS * 7 / 8);
 }
 
-/* Nearly all rays meet several patches of the plane, and few of them a border. */
+/* Nearly all rays meet several patches of the plane, and few meet a border. */
 static void a_plane_costs_no_last_resort(void **state)
 {
   (void)state;

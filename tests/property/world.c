@@ -9,7 +9,7 @@
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 
-/* Rounded to a multiple of 2^-20, so that scaled and moved nets are exact too. */
+/* Rounds to a multiple of 2^-20, so that scaled and moved nets are exact too. */
 static double grain(double x) { return rint(x * 0x1p20) * 0x1p-20; }
 
 static void set(double p[3], double x, double y, double z) { p[0] = grain(x), p[1] = grain(y), p[2] = grain(z); }
@@ -38,7 +38,7 @@ static size_t fill_wild(struct random *random, world_net nets[])
   return 4;
 }
 
-/* Quarter turns of a profile, with the circle's usual cubic; u = 0 is the pole. */
+/* Quarter turns of a profile, by the usual cubic for a circle; u = 0 is the pole. */
 static size_t fill_dome(struct random *random, world_net nets[])
 {
   static const double turn[13][2] = {{1, 0},      {1, 0.552},  {0.552, 1},   {0, 1},       {-0.552, 1},
@@ -74,7 +74,7 @@ static size_t fill_low(struct random *random, world_net nets[])
     const int m = 1 + p / 3, n = 1 + p % 3;
     double low[3][4][4];
     for (int k = 0; k < 48; k++) low[k / 16][k / 4 % 4][k % 4] = random_between(random, -1, 1);
-    /* a cubic with the values of a polynomial of degree (m,n) at its four nodes, by elevation */
+    /* a cubic with the values of a polynomial of degree (m,n) at its four nodes, by degree elevation */
     for (int e = 0; e < 16; e++) {
       double point[3];
       const double s = (e / 4) / 3.0, t = (e % 4) / 3.0;
@@ -86,7 +86,7 @@ static size_t fill_low(struct random *random, world_net nets[])
         for (int a = 0; a <= m; a++)
           for (int b = 0; b <= n; b++) point[k] += low[k][a][b] * bu[a] * bv[b] * 0.5;
       }
-      memcpy(nets[p][e / 4][e % 4], point, sizeof point); /* not on the grain: that would raise the degree again */
+      memcpy(nets[p][e / 4][e % 4], point, sizeof point); /* not rounded by grain: that would raise the degree again */
     }
   }
   return 9;
@@ -101,7 +101,7 @@ static size_t fill_degenerate(struct random *random, world_net nets[])
     memcpy(nets[1][n / 4][n % 4], nets[1][0][n % 4], sizeof nets[1][0][0]); /* a curve */
     set(nets[2][n / 4][n % 4], n / 4 / 3.0, n / 4 / 3.0, 0.5);              /* a line */
     nets[3][n / 4][n % 4][2] = 0.25;                                        /* folded flat */
-    /* ruled, both halves still */
+    /* ruled: each half of the rows is equal */
     memcpy(nets[4][n / 4][n % 4], nets[4][n / 4 > 1 ? 3 : 0][n % 4], sizeof nets[4][0][0]);
     if (n / 4 == 0) memcpy(nets[5][0][n % 4], nets[5][0][0], sizeof nets[5][0][0]); /* collapsed at u = 0 */
     if (n % 4 == 3) memcpy(nets[5][n / 4][3], nets[5][0][3], sizeof nets[5][0][0]); /* and at v = 1 */
@@ -162,12 +162,12 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
   const size_t p = random_bits(random) % count;
   double u = random_unit(random), v = random_unit(random), point[3], du[3], dv[3];
   const double eighths[2] = {(double)(random_bits(random) % 9) / 8, (double)(random_bits(random) % 9) / 8};
-  if (kind == 1) u = eighths[0];                 /* a line of constant u, where leaves meet, or a border */
+  if (kind == 1) u = eighths[0];                 /* a line of constant u: a border, or where leaves meet */
   if (kind == 2) u = eighths[0], v = eighths[1]; /* a corner of leaves */
   if (kind == 3 && random_bits(random) % 2) v = eighths[1];
   surface(nets[p], u, v, point, du, dv);
   for (int k = 0; k < 3; k++) ray.origin[k] = random_between(random, -3, 3);
-  if (kind == 6) /* from far */
+  if (kind == 6) /* from far away */
     for (int k = 0; k < 3; k++) ray.origin[k] *= 1e6;
   for (int k = 0; k < 3; k++) ray.direction[k] = point[k] - ray.origin[k];
   if (kind == 3) { /* tangent */
@@ -183,7 +183,7 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
   }
   if (kind == 5) /* from the surface, anywhere */
     for (int k = 0; k < 3; k++) ray.origin[k] = point[k], ray.direction[k] = random_between(random, -1, 1);
-  if (kind == 7) /* missing more often than not */
+  if (kind == 7) /* missing more often than hitting */
     for (int k = 0; k < 3; k++) ray.direction[k] += random_between(random, -1, 1);
   if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) ray.direction[2] = 1;
   return ray;
@@ -270,8 +270,8 @@ void world_towards(struct random *random, const double at[3], double off, struct
   }
 }
 
-/* How far two right answers may be apart, as a part of t: last places of a point and of t, over the sine of the
- * angle of incidence. */
+/* How far apart two right answers may be, as a difference of t: last places of a point and of t, divided by the sine
+ * of the angle of incidence. */
 static double tolerance(const struct ray *ray, const struct hit *hit)
 {
   const double length = vector_length(ray->direction);

@@ -1,4 +1,4 @@
-/* Small scenes of patches and rays that are awkward for them, for property tests of the intersector. */
+/* Small scenes of patches, and rays that are hard for them, for property tests of the intersector. */
 #ifndef TESTS_PROPERTY_WORLD_H
 #define TESTS_PROPERTY_WORLD_H
 
@@ -10,7 +10,7 @@
 
 typedef double world_net[4][4][3];
 
-/* A scene of bare patches with one solver, prepared, with one tracer. */
+/* A prepared scene of bare patches with one solver, and one tracer. */
 struct world {
   struct scene scene;
   struct method solver;
@@ -31,19 +31,20 @@ enum world_kind {
 
 enum { WORLD_MAX = 16 };
 
-/* Fills nets[0..count), returns count <= WORLD_MAX. Coordinates are multiples of 2^-20 of size about 1. */
+/* Fills nets[0..count) and returns count <= WORLD_MAX. Coordinates are multiples of 2^-20, of size about 1. */
 size_t world_fill(enum world_kind kind, struct random *random, world_net nets[WORLD_MAX]);
 
-/* Copies the nets and prepares the scene; `options` may be NULL for the default. Asserts where that fails. */
+/* Copies the nets and prepares the scene; options == NULL means the default. Asserts that this succeeds. */
 void world_open(struct world *world, world_net *nets, size_t count, const struct method *options);
 void world_close(struct world *world);
 
-/* A ray at the nets, of one of many kinds: through the middle of things, at borders, corners and lines of constant u
- * and v, tangent, along an axis, from far, from the surface itself. t_min 0, t_max INFINITY. */
+/* A ray at the nets, of one of RAY_KINDS kinds: through the interior; at borders, corners and lines of constant u
+ * and v; tangent; along an axis; from far away; from the surface itself. t_min is 0, t_max INFINITY. */
 enum { RAY_KINDS = 8 };
 struct ray world_ray(struct random *random, world_net *nets, size_t count, int kind);
 
-/* A ray from a place within 6 of 0 along each axis, at a point or off that by so much at most. Sets only these. */
+/* A ray from a place within 6 of 0 along each axis, at a point, or off it by at most `off`. Sets only origin and
+ * direction. */
 void world_towards(struct random *random, const double at[3], double off, struct ray *ray);
 
 /* A scene, and rays at it. */
@@ -52,49 +53,49 @@ struct set_up {
   int kind; /* of the scene */
   struct random *random;
   struct world *world;
-  world_net *nets; /* count of them */
+  world_net *nets; /* `count` of them */
   size_t count;
   struct ray rays[STAGE_RAYS];
 };
 
-/* Calls `body` on so many scenes of each kind, one after the other. */
+/* Calls `body` for `scenes` scenes of each kind, one after the other. */
 void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage));
 
-/* Hands the rays of the stage to `ask` in packets, `number` saying which they are: in the order they come, shuffled,
- * and shuffled in packets of every size. */
+/* Passes the rays of the stage to `ask` in packets: in their order, shuffled, and shuffled in packets of every size.
+ * `number` holds the indices of a packet's rays. */
 typedef void ask_packet(const struct set_up *stage, size_t size, const size_t number[], const struct ray rays[],
                         void *context);
 void in_all_companies(struct set_up *stage, ask_packet *ask, void *context);
 
-/* A packet of rays and the answers of two tracers to them, of each in three ways. */
+/* A packet of rays, and two tracers' answers to them, to each in three ways. */
 enum { ASKED_RAYS = 8 };
 struct asked {
   struct ray rays[ASKED_RAYS];
   struct hit hit[2][ASKED_RAYS];
   bool occluded[2][ASKED_RAYS];
-  struct hit_list list[2][ASKED_RAYS]; /* of tracer_all: gone when the tracer is asked again */
+  struct hit_list list[2][ASKED_RAYS]; /* of tracer_all: valid until the tracer is asked again */
 };
 
-/* Asks both of rays at the nets, ray n of kind `first` + n and so on round. */
+/* Asks both tracers about rays at the nets; ray n has kind `first` + n, modulo RAY_KINDS. */
 void world_ask_both(struct tracer *const tracers[2], struct random *random, world_net *nets, size_t count, int first,
                     struct asked *out);
 
-/* Whether two hits are the same to the last bit (only the certainty counts for misses). */
+/* Whether two hits are the same to the last bit. For misses only the certainty counts. */
 bool same_hit(const struct hit *a, const struct hit *b);
 
-/* Whether two nearest hits of the ray may both be right: where both are certain they are one in all but rounding. */
+/* Whether two nearest hits of the ray may both be right: if both are certain, they must be equal within rounding. */
 bool hits_agree(const struct ray *ray, const struct hit *a, const struct hit *b);
 
-/* The answer to one ray by itself. */
+/* The answer to one ray alone. */
 struct hit world_closest(const struct world *world, const struct ray *ray);
 
-/* Prints a ray and two answers that should agree; `kind` is that of the scene. */
+/* Prints a ray and two answers that should agree; `kind` is the scene's. */
 void world_print_case(const char *what, int kind, const struct ray *ray, const struct hit *a, const struct hit *b);
 
-/* Asserts that the two are the same to the last bit, and prints the case where they are not. */
+/* Asserts that the two hits are the same to the last bit; prints the case if they are not. */
 void assert_same_hit(const char *what, int kind, const struct ray *ray, const struct hit *a, const struct hit *b);
 
-/* Every coordinate times a factor, then moved by the offset. */
+/* Multiplies every coordinate by a factor, then adds the offset. */
 void world_scale_net(world_net net, double factor, double offset, world_net out);
 
 #endif

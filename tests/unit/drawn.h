@@ -1,10 +1,10 @@
-/* In the place of gnuplot (-Wl,--wrap=plot_draw): the values that a figure would be drawn from. */
+/* Replaces gnuplot (-Wl,--wrap=plot_draw): keeps the values that a figure would be drawn from. */
 #ifndef TESTS_UNIT_DRAWN_H
 #define TESTS_UNIT_DRAWN_H
 
 #include "check/plot.h"
 
-static json_t *drawn; /* the last ones */
+static json_t *drawn; /* the last values */
 
 enum status __wrap_plot_draw(const struct listener *listener, const char *template, const json_t *values,
                              struct text_buffer *out);

@@ -1,4 +1,4 @@
-/* What a value is as JSON, its keys in order. */
+/* Asserts a value's JSON text, its keys in order. */
 #ifndef TESTS_UNIT_EXPECT_JSON_H
 #define TESTS_UNIT_EXPECT_JSON_H
 

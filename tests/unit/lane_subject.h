@@ -1,4 +1,4 @@
-/* A leaf, and a packet of rays that are aimed at it lane by lane, for tests of one instruction set (lanes_main.h). */
+/* A leaf, and a packet of rays aimed at it lane by lane, for tests of one instruction set (lanes_main.h). */
 #ifndef PSCN_TESTS_UNIT_LANE_SUBJECT_H
 #define PSCN_TESTS_UNIT_LANE_SUBJECT_H
 
@@ -19,7 +19,7 @@ struct subject {
   bool over_a_plane; /* x is linear in u, y in v */
 };
 
-/* Of any shape, or flat but for `rough`, or slender; of a patch that is cut into up to 2^most_halvings a side. */
+/* Makes a leaf of any shape, or flat within `rough`, or slender; its patch is cut into up to 2^most_halvings a side. */
 static inline void subject_make(struct random *random, unsigned most_halvings, double rough, struct subject *s)
 {
   const int kind = (int)(random_bits(random) % 3);
@@ -43,7 +43,7 @@ static inline void subject_make(struct random *random, unsigned most_halvings, d
   leaf_quadrics(1, &s->leaf);
 }
 
-/* A point of the leaf in the frame of its patch. */
+/* A point of the leaf, in the frame of its patch. */
 static inline void subject_point(const struct subject *s, double u, double v, double out[3])
 {
   for (int k = 0; k < 3; k++) {
@@ -53,7 +53,8 @@ static inline void subject_point(const struct subject *s, double u, double v, do
   }
 }
 
-/* Has the packet's rays, whose origins, directions and ends are set, look at the patch, whose points are off by so much. */
+/* Prepares the packet's rays, whose origins, directions and ends are set, for the patch, whose points are off by up
+ * to `error`. */
 static inline void subject_look(struct subject *s, double error)
 {
   struct packet *p = &s->packet;

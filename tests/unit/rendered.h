@@ -1,4 +1,4 @@
-/* A small scene, and pictures of it. Each test that includes this has its own. */
+/* A small scene, and pictures of it. Each test that includes this header has its own copy. */
 #ifndef TESTS_UNIT_RENDERED_H
 #define TESTS_UNIT_RENDERED_H
 
@@ -9,7 +9,7 @@
 #include "cmocka_test.h"
 #include "render/render.h"
 
-enum { WIDTH = 70, HEIGHT = 45 }; /* several tiles, none of them whole at the right and lower edges */
+enum { WIDTH = 70, HEIGHT = 45 }; /* several tiles; those at the right and lower edges are cut off */
 
 static struct scene_texture texture = {
   .pigment = {0.8, 0.5, 0.3},
@@ -32,7 +32,8 @@ static inline struct scene_patch square(double half, double z, double bulge)
   return patch;
 }
 
-/* A bulging square before a flat one that does not fill the picture, seen along z. Tests change it as they need. */
+/* A bulging square in front of a flat one that does not fill the picture, seen along z. Tests change it as they
+ * need. */
 static inline struct scene scene_of(void)
 {
   method_default(solver_at(0), &solver);
@@ -65,7 +66,7 @@ static inline struct render_options options_of(const char *channels)
   return options;
 }
 
-/* The values of a picture, to be freed. */
+/* The values of a picture; the caller frees them. */
 static inline float *render(const struct scene *scene, const struct render_options *options,
                             struct render_stats *out_stats)
 {
@@ -89,7 +90,7 @@ static inline void point_on_wall(size_t x, size_t y, double out[3])
   out[2] = 2;
 }
 
-/* Whether a value is the float of a number that was computed in another order: one unit in the last place, or of 1. */
+/* Whether the value is the float of a number computed in another order, within one unit in the last place, or of 1. */
 static inline bool is_float(float value, double expected)
 {
   return (double)value == expected || fabs((double)value - expected) <= 0x1p-23 * (1 + fabs(expected));
