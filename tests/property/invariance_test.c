@@ -1,5 +1,5 @@
-/* What an answer keeps when the scene is scaled, moved or cut otherwise, when the ray is given otherwise, and when
- * another method finds it. */
+/* Answers stay the same if the scene is scaled, moved or cut differently, if the ray is given differently, and if
+ * another method finds the hit. */
 #include <math.h>
 #include <string.h>
 
@@ -9,12 +9,12 @@
 
 enum { SEED = 20240511, SCENES = 2, RAYS = 64 };
 
-/* Hits that are computed in two ways differ by the rounding of the plane polynomials over the sine of the angle at
+/* Hits computed in two ways differ by the rounding of the plane polynomials, divided by the sine of the angle at
  * which the ray meets the surface: some hundred units roundoff of the scene's size. */
 #define SAME_T 1e-13
 
-/* Whether two answers to rays of the same geometry agree as far as both are certain; b's t is multiplied by `ratio`
- * first. */
+/* Whether two answers to rays of the same geometry agree as far as both are certain; b's t is first multiplied by
+ * `ratio`. */
 static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b, double ratio)
 {
   if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
@@ -33,9 +33,9 @@ static struct ray grain_ray(struct random *random, world_net *nets, size_t count
   return ray;
 }
 
-/* Answers that no traversal changes: the same to the last bit. Of a pole met exactly, any of the patches that meet
- * there may be answered, at a place within the last bits: where the hierarchy's single precision ends, its order is
- * another. */
+/* Answers that no traversal changes: they are the same to the last bit. Of a pole met exactly, any of the patches
+ * that meet there may be answered, at a place within the last bits: at the limits of the hierarchy's single
+ * precision the order differs. */
 static bool same_or_grazing(const struct hit *a, const struct hit *b)
 {
   if (same_hit(a, b)) return true;
@@ -43,11 +43,11 @@ static bool same_or_grazing(const struct hit *a, const struct hit *b)
   return a->patch != HIT_NONE && b->patch != HIT_NONE && fabs(a->t - b->t) <= SAME_T * a->t;
 }
 
-/* Exponents of scenes as they are met, then far beyond what a float holds, then nearly all that a double holds. */
+/* Exponents of common scenes, then far beyond the range of a float, then nearly all that a double holds. */
 static const int scene_exponents[] = {20, -20, 100, -100, 200, -200, 500, -500, 999, -880};
 enum { EXPONENTS = sizeof scene_exponents / sizeof *scene_exponents, EXPONENTS_OF_FLOAT = 4 };
 
-/* A power of two changes no digit of any answer. */
+/* Scaling by a power of two changes no digit of any answer. */
 static void powers_of_two_scale_exactly(void **state)
 {
   (void)state;
@@ -81,8 +81,8 @@ static void powers_of_two_scale_exactly(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* x, y, z become y, z, x: the axis along which the ray is longest goes along, and with it the two planes, so that no
- * digit of the place changes. (The normal's length is a sum in another order.) */
+/* x, y, z become y, z, x. The axis along which the ray is longest moves along, and with it the two planes, so no
+ * digit of the place changes. (The normal's length is summed in another order.) */
 static void turned_axes_answer_alike(void **state)
 {
   (void)state;
@@ -120,7 +120,7 @@ static void turned_axes_answer_alike(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* The order in which patches stand in the scene decides only which of those that meet at the very point is answered. */
+/* The order of the patches in the scene decides only which of those that meet in the hit point is answered. */
 static void the_order_of_patches_does_not_matter(void **state)
 {
   (void)state;
@@ -183,7 +183,7 @@ static void scaled_and_moved_scenes_answer_alike(void **state)
         struct ray ray = grain_ray(&random, nets, count, n), changed = ray;
         for (int k = 0; k < 3; k++) changed.origin[k] = ray.origin[k] * changes[c].factor + changes[c].offset;
         const struct hit want = world_closest(&a, &ray), got = world_closest(&b, &changed);
-        if (n % RAY_KINDS == 5) continue; /* from the surface: whether t = 0 counts is decided by the rounding there */
+        if (n % RAY_KINDS == 5) continue; /* from the surface: rounding decides there whether t = 0 counts */
         if (!agree(&ray, &want, &got, 1 / changes[c].factor) && wrong++ < 5)
           world_print_case("moved", kind, &ray, &want, &got);
       }
@@ -194,7 +194,8 @@ static void scaled_and_moved_scenes_answer_alike(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* Powers of two exactly, other lengths to a rounding; the shortest and the longest doubles. */
+/* Directions scaled by powers of two answer exactly alike, by other factors within a rounding; so do the shortest
+ * and longest doubles. */
 static void the_length_of_the_direction_does_not_matter(void **state)
 {
   (void)state;
@@ -244,7 +245,7 @@ static void odd_lengths(void **state)
       const struct hit want = world_closest(&world, &unit), got = world_closest(&world, &ray);
       assert_true(want.patch == got.patch && want.patch != HIT_NONE);
       assert_true(fabs(want.u - got.u) < 1e-14 && fabs(want.v - got.v) < 1e-14);
-      const double t = want.t / lengths[l]; /* may be subnormal or overflow: then only the point tells */
+      const double t = want.t / lengths[l]; /* may be subnormal or overflow; then only the point can be compared */
       if (t > 1e-305 && t < 1e305) assert_true(fabs(got.t - t) <= 1e-15 * t), hits++;
     }
   }
@@ -252,7 +253,7 @@ static void odd_lengths(void **state)
   world_close(&world);
 }
 
-/* However a patch is cut into leaves, and whichever method finds the roots, the answer is the same. */
+/* The answer does not depend on how a patch is cut into leaves, nor on the method that finds the roots. */
 static void cuts_and_methods_answer_alike(void **state)
 {
   (void)state;

@@ -1,4 +1,5 @@
-/* Scenes on which rays did far more than they need: few leaves are tried, and little is left to the last resort. */
+/* Scenes on which rays once did far more work than they need: few leaves are tried, and little is left to the last
+ * resort. */
 #include <math.h>
 
 #include "cmocka_test.h"
@@ -9,7 +10,7 @@ enum { SEED = 20261122 };
 
 /* ---- stacks of sheets, lines ---- */
 
-/* A sheet bent along u by more than there is to the next one. */
+/* A sheet bent along u by more than its distance from the next one. */
 static void sheet(size_t number, world_net net)
 {
   for (int i = 0; i < 4; i++)
@@ -21,7 +22,7 @@ static void sheet(size_t number, world_net net)
 
 enum { NETS = 300, NET_RAYS = 400 };
 
-/* Of rays by the middle of these nets, which are all certain, each is tried on `few` leaves at most, on average. */
+/* Rays at the middle of these nets are all certain, and each is tried on at most `few` leaves, on average. */
 static void few_are_tried(const char *name, world_net nets[NETS], double few)
 {
   struct random random = {SEED};
@@ -38,7 +39,8 @@ static void few_are_tried(const char *name, world_net nets[NETS], double few)
   world_close(&world);
 }
 
-/* Leaves as thick as they bend would all be in one another's way: one leaf is met, and few others may be tried. */
+/* If leaves were as thick as they bend, each would overlap many others. One leaf is met, and few others may be
+ * tried. */
 static void of_a_stack_few_are_tried(void **state)
 {
   (void)state;
@@ -47,7 +49,7 @@ static void of_a_stack_few_are_tried(void **state)
   few_are_tried("a stack", nets, 5);
 }
 
-/* From one point to another: along v, along u, or both ways; or wider than that by far less than it is long. */
+/* A line from one point to another, along v, along u or along both; or a strip far narrower than it is long. */
 static void thread(struct random *random, size_t number, world_net net)
 {
   double a[3], b[3], off[3];
@@ -63,7 +65,7 @@ static void thread(struct random *random, size_t number, world_net net)
       }
 }
 
-/* A leaf that is a line has no normal, but a box along it as any other. */
+/* A leaf that is a line has no normal, but a box along it like any other. */
 static void of_lines_few_are_tried(void **state)
 {
   (void)state;
@@ -94,8 +96,8 @@ static void open_planet(double radius, struct world *world)
   world_open(world, nets, 8, NULL);
 }
 
-/* What stands on a pole, a millionth or less of the ball from it, sees no leaf for whose whole a Jacobian is regular; little is left
- * to the last resort all the same, from above and from the ground up. */
+/* From next to a pole, a millionth of the ball away or less, no leaf is seen over whose whole the Jacobian is
+ * regular. Little is left to the last resort nevertheless, from above and from the ground up. */
 static void next_to_poles_little_is_left_open(void **state)
 {
   (void)state;
@@ -123,8 +125,8 @@ static void next_to_poles_little_is_left_open(void **state)
   }
 }
 
-/* The ground next to a pole, seen aslant from near by, is bent so that a leaf at the pole may have two roots: boxes that divide by
- * the distance from the pole show that it has not. */
+/* Seen from nearby at a slant, the ground next to a pole bends so much that a leaf at the pole may have two roots.
+ * Boxes that divide by the distance from the pole show that it has not. */
 static void next_to_poles_little_is_left_open_aslant(void **state)
 {
   (void)state;
@@ -148,7 +150,7 @@ static void next_to_poles_little_is_left_open_aslant(void **state)
   }
 }
 
-/* What meets a pole exactly is for the last resort to decide: no resultant is formed before, of any leaf there. */
+/* A ray that meets a pole exactly is left to the last resort; no resultant of any leaf there is formed first. */
 static void of_what_meets_a_pole_no_resultant_is_formed(void **state)
 {
   (void)state;
@@ -171,8 +173,8 @@ static void of_what_meets_a_pole_no_resultant_is_formed(void **state)
   world_close(&world);
 }
 
-/* A camera stands exactly on a pole, or in a corner of several patches: its start is known to be no hit, and what goes up from the
- * ball leaves nothing open. Where the start belongs to the ray it is a hit. */
+/* The camera is exactly on a pole, or in a corner of several patches. Its start is known to be no hit, and rays that
+ * go up from the ball leave nothing open. If the start belongs to the ray, it is a hit. */
 static void from_poles_and_corners_nothing_is_left_open(void **state)
 {
   (void)state;
@@ -206,7 +208,7 @@ static void from_poles_and_corners_nothing_is_left_open(void **state)
   world_close(&world);
 }
 
-/* A quarter of a cone whose handles are at their ends, its tip in 0. */
+/* A quarter of a cone whose inner control points coincide with its ends; its tip is at 0. */
 static void cone_quarter(size_t number, world_net net)
 {
   static const double k = 0.5522847498, arc[4][2] = {{1, 0}, {1, k}, {k, 1}, {0, 1}};
@@ -216,7 +218,8 @@ static void cone_quarter(size_t number, world_net net)
       net[i][j][0] = i / 2 * x * arc[j][0], net[i][j][1] = -(i / 2), net[i][j][2] = i / 2 * z * arc[j][1];
 }
 
-/* No Jacobian is regular in its tip. What starts there and goes up, or down within, is known to leave it all the same. */
+/* No Jacobian is regular at the tip. Rays that start there and go up, or down inside the cone, are nevertheless
+ * known to leave it. */
 static void from_a_tip_without_handles_nothing_is_left_open(void **state)
 {
   (void)state;
@@ -242,8 +245,9 @@ static void from_a_tip_without_handles_nothing_is_left_open(void **state)
   world_close(&world);
 }
 
-/* A light in a cone's tip: shadow rays end just before it, and meet nothing on their way from below, within the cone or outside;
- * nor do rays that start just behind the tip. The cone's handles are at thirds, or at their ends. */
+/* A light in a cone's tip: shadow rays from below, inside the cone or outside, end just before it and meet nothing;
+ * nor do rays that start just behind the tip. The cone's inner control points are at thirds, or coincide with the
+ * ends. */
 static void next_to_a_tip_nothing_is_left_open(void **state)
 {
   (void)state;
@@ -282,7 +286,7 @@ static void next_to_a_tip_nothing_is_left_open(void **state)
 
 /* ---- contacts of the third order ---- */
 
-/* z = w^2/4 + s w + s^3, (s, w) being (x, y) turned by the angle. */
+/* z = w^2/4 + s w + s^3, (s, w) being (x, y) rotated by the angle. */
 static void saddle(double angle, world_net net)
 {
   const double c = cos(angle), n = sin(angle);
@@ -296,8 +300,9 @@ static void saddle(double angle, world_net net)
   }
 }
 
-/* A ray that touches the surface where it does not bend that way meets it once, where s^3 is how far it passes above; along the
- * parameters or aslant, however little that is, that takes no more work than other rays may. */
+/* A ray that touches the surface along a direction of no curvature meets it once, at s^3 equal to its distance
+ * above. Along the parameters or at a slant, and however small that distance is, this takes no more work than a ray
+ * may take. */
 static void of_what_touches_to_the_third_order_little_is_looked_at(void **state)
 {
   (void)state;

@@ -1,4 +1,4 @@
-/* What a ray meets next: all hits along it, from both ends; within intervals of t; on leaving a surface. */
+/* The next hit of a ray: all hits along it, from both ends; within intervals of t; on leaving a surface. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 enum { SEED = 20240511, SCENES = 2, RAYS = 64 };
 
-/* All hits along a ray, by going on from each one's t. */
+/* Finds all hits along a ray by continuing from each hit's t. */
 static int all_hits(const struct world *world, struct ray ray, struct hit hits[], int most, bool *certain)
 {
   int count = 0;
@@ -21,7 +21,7 @@ static int all_hits(const struct world *world, struct ray ray, struct hit hits[]
   return count;
 }
 
-/* Whether one of the hits is next to a border: the way back, another line, may pass an open one by. */
+/* Whether one of the hits is next to a border: the way back is another line, which may pass an open border by. */
 static bool next_to_border(const struct hit hits[], int count)
 {
   for (int k = 0; k < count; k++)
@@ -41,14 +41,14 @@ static void intervals_of_t_are_respected(void **state)
       const size_t count = world_fill((enum world_kind)kind, &random, nets);
       world_open(&world, nets, count, NULL);
       for (int n = 0; n < RAYS; n++) {
-        /* Not tangents: the way back starts at a rounded point, another line, which may meet no surface there. */
+        /* No tangents: the way back starts at a rounded point; being another line, it may meet no surface there. */
         if (n % RAY_KINDS == 3 || n % RAY_KINDS == 5 || n % RAY_KINDS == 6) continue;
         struct ray ray = world_ray(&random, nets, count, n % RAY_KINDS), part = ray, back = ray;
         struct hit forward[40], backward[40];
         bool certain, certain_back;
         const int hits = all_hits(&world, ray, forward, 40, &certain);
         if (hits == 0) continue;
-        /* Just before and just after the first hit; always within the interval that was asked for. */
+        /* Just before the first hit and just after it, always within the interval asked for. */
         part.t_max = forward[0].t * (1 - 1e-9);
         const struct hit before = world_closest(&world, &part);
         part.t_max = forward[0].t * (1 + 1e-9);
@@ -60,7 +60,7 @@ static void intervals_of_t_are_respected(void **state)
         if (at.patch != HIT_NONE && !(at.t > 0 && at.t < part.t_max) && wrong++ < 5)
           world_print_case("t_max", kind, &part, &at, &at);
         for (int k = 0; k < hits; k++) assert_true(forward[k].t > 0 && (k == 0 || forward[k].t > forward[k - 1].t));
-        /* The same points from the other end. */
+        /* The same points, from the other end. */
         const double end = forward[hits - 1].t + 1;
         vector_add_scaled(ray.origin, end, ray.direction, back.origin);
         vector_scale(-1, ray.direction, back.direction);
@@ -73,7 +73,7 @@ static void intervals_of_t_are_respected(void **state)
           const struct hit *f = &forward[k], *b = &backward[hits - 1 - k];
           const double length = vector_length(ray.direction),
                        steep = fabs(vector_dot(ray.direction, f->normal)) / length;
-          /* The other origin is rounded: the line is another one, by some units of the last place. */
+          /* The other origin is rounded, so the line differs by some units of the last place. */
           same = fabs(f->t + b->t - end) * steep * steep <= 1e-12 * fmax(1, end);
         }
         if (!same && wrong++ < 5) {
@@ -91,8 +91,8 @@ static void intervals_of_t_are_respected(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* A ray that leaves a hit, to either side, at no flat angle, does not meet the sheet it leaves; the patches bend by
- * radii above 1/100, so whatever it meets of it is at least that times the sine of 0.1 away. */
+/* A ray that leaves a hit, to either side, at no flat angle, does not meet the sheet it leaves. The patches' radii
+ * of curvature are above 1/100; the sheet is met again no nearer than that times the sine of 0.1. */
 static void leaving_a_surface_does_not_meet_it(void **state)
 {
   (void)state;
@@ -100,7 +100,7 @@ static void leaving_a_surface_does_not_meet_it(void **state)
   static const double offsets[] = {0, 1e3, 1e6};
   world_net nets[WORLD_MAX], moved[WORLD_MAX];
   int wrong = 0, left = 0;
-  for (int kind = 0; kind < 3; kind++) { /* the wavy, the wild and the dome */
+  for (int kind = 0; kind < 3; kind++) { /* the wavy one, the wild one and the dome */
     for (int o = 0; o < 3; o++) {
       struct world world;
       const size_t count = world_fill((enum world_kind)kind, &random, nets);
@@ -110,7 +110,7 @@ static void leaving_a_surface_does_not_meet_it(void **state)
         struct ray ray = world_ray(&random, moved, count, n % 3);
         const struct hit hit = world_closest(&world, &ray);
         const double inner = fmin(fmin(hit.u, 1 - hit.u), fmin(hit.v, 1 - hit.v));
-        if (hit.patch == HIT_NONE || inner < 0.001) continue; /* at a crease the other patch is met, rightly */
+        if (hit.patch == HIT_NONE || inner < 0.001) continue; /* at a crease the ray rightly meets the other patch */
         double d[3];
         for (int k = 0; k < 3; k++) d[k] = random_between(&random, -1, 1);
         vector_scale(1 / vector_length(d), d, d);
@@ -130,7 +130,7 @@ static void leaving_a_surface_does_not_meet_it(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* Two sheets 1e-9 apart are two sheets: leaving the first one meets the second. */
+/* Two sheets 1e-9 apart are two: leaving the first one, a ray meets the second. */
 static void a_sheet_right_behind_is_not_skipped(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
-/* Normals of certain hits next to poles, where Su x Sv all but vanishes, to quadruple precision's at the same place; and next to
- * poles whose points were rounded one by one, to those of the pole. */
+/* Normals of certain hits next to poles, where Su x Sv nearly vanishes, agree with quadruple precision at the same
+ * place. Next to poles whose points were rounded one by one, they agree with the normals of the pole. */
 #include <math.h>
 #include <string.h>
 
@@ -11,10 +11,10 @@
 
 enum { SEED = 20261126, PATCHES = 400, RAYS = 32, FARTHEST = 36 };
 
-/* What a normal may be off by: intersect/point.h. */
+/* How much a normal may be off: intersect/point.h. */
 #define SURE 0x1p-18
 
-/* Poles as they come: one border in a point, the row behind it as well, or in part. */
+/* Kinds of poles: a border is one point; so is the row behind it; or part of that row. */
 enum { ONE_ROW, TWO_ROWS, ROW_IN_PART, KINDS };
 
 static void pole(struct random *random, int kind, world_net net)
@@ -25,7 +25,7 @@ static void pole(struct random *random, int kind, world_net net)
   if (kind == ROW_IN_PART) memcpy(net[1][2], net[1][1], sizeof net[1][1]);
 }
 
-/* S, and Su x Sv of unit length. */
+/* S, and Su x Sv scaled to unit length. */
 static void surface(world_net net, double u, double v, double at[3], double normal[3])
 {
   struct quad_jet jet[3];
@@ -43,7 +43,7 @@ static void surface(world_net net, double u, double v, double at[3], double norm
   for (int c = 0; c < 3; c++) normal[c] = (double)(n[c] / length);
 }
 
-/* How far the hit's normal, of either sense, is off that of the net there. */
+/* How far the hit's normal, of either sign, is from the net's normal there. */
 static double normal_off(world_net net, const struct hit *hit, double u)
 {
   double at[3], normal[3], facing = 0, off = 0;
@@ -83,7 +83,7 @@ static void normals_next_to_poles_are_those_of_the_surface(void **state)
 
 enum { ROUNDED_POLES = 600, MOST_AWAY = 20, MOST_EXPONENT = 700 };
 
-/* A pole at 0, as a ball has it; its numbers leave room to be moved as far as MOST_AWAY. */
+/* A pole at 0, as on a ball; its numbers have room to be moved by up to MOST_AWAY. */
 static void cap(struct random *random, world_net net)
 {
   double to[3][3];

@@ -1,4 +1,4 @@
-/* What the answer to a ray may not depend on: the rays beside it, the instruction set, the order of the patches. */
+/* The answer to a ray does not depend on the rays beside it, the instruction set or the order of the patches. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 enum { SEED = 20240510, SCENES = 1 };
 
-/* The answers to the rays one by one; they are gone at the next call. */
+/* The answers to the rays one by one; valid until the next call. */
 static const struct hit *answers_alone(const struct set_up *s)
 {
   static struct hit alone[STAGE_RAYS];
@@ -17,7 +17,7 @@ static const struct hit *answers_alone(const struct set_up *s)
 }
 
 struct alone {
-  const struct hit *hits; /* of each ray by itself */
+  const struct hit *hits; /* of each ray alone */
   int wrong;
 };
 
@@ -47,7 +47,7 @@ static void answers_do_not_depend_on_companions(void **state)
   on_all_stages(SEED, SCENES, companions);
 }
 
-/* Rays in all directions at so many leaves that they go through the hierarchy apart. */
+/* Rays in all directions, in a scene with so many leaves that each ray goes through the hierarchy separately. */
 static void rays_apart_do_not_depend_on_companions(void **state)
 {
   static world_net nets[WORLD_MAX];
@@ -80,8 +80,8 @@ static void rays_apart_do_not_depend_on_companions(void **state)
   assert_true(hits > 100);
 }
 
-/* Patches all through one another in one place, of which many a ray passes more leaves than it may be tried on: which those
- * are depends on the order in which they come, and what is certain of the ray must not. */
+/* Patches all through one another in one place. Many rays pass more leaves than a ray may be tried on. Which leaves
+ * are tried depends on their order; what is certain of the ray must not. */
 static void rays_whose_share_ends_do_not_depend_on_companions(void **state)
 {
   enum { HEAP = 20000, RAYS = 120, FEW = 3, FEW_LOOKS = 1 << 17 };
@@ -122,8 +122,9 @@ static void rays_whose_share_ends_do_not_depend_on_companions(void **state)
   assert_in_range(ended, RAYS / 20, RAYS / 2);
 }
 
-/* Bent cards that share a corner, more of them than a ray has room for when it goes through the corner: which of them are left open
- * depends on whether what is before the corner was come to first. From far away the range begins somewhere among them. */
+/* Bent cards that share a corner, more than a ray through that corner has room for. Which of them are left open
+ * depends on whether the walk reached patches before the corner first. The range of rays from far away begins
+ * somewhere among the cards. */
 static void rays_through_a_crowded_corner_do_not_depend_on_companions(void **state)
 {
   enum { CARDS = 200, RAYS = 8000, FEW = 8 };
@@ -172,7 +173,7 @@ static void rays_through_a_crowded_corner_do_not_depend_on_companions(void **sta
   assert_true(certain > RAYS / 2);
 }
 
-/* Any hit is found exactly where a closest one is, alone and in company. */
+/* Any hit is found exactly if a closest one is, alone and in packets. */
 static void occlusion(struct set_up *s)
 {
   const struct hit *alone = answers_alone(s);
@@ -197,7 +198,7 @@ static void occluded_is_whether_there_is_a_hit(void **state)
   on_all_stages(SEED + 1, SCENES, occlusion);
 }
 
-/* Every kernel that the processor can run, against the plainest, which is the last of them; they may round differently. */
+/* Compares every kernel that the processor can run with the plainest, the last of them; they may round differently. */
 static void kernels(struct set_up *s)
 {
   static struct hit answers[KERNELS_MAX][STAGE_RAYS];
@@ -225,7 +226,7 @@ static void kernels_agree(void **state)
   on_all_stages(SEED + 2, SCENES, kernels);
 }
 
-/* Another order of the patches: the same t, and, where hits are not tied, the same patch. */
+/* Another order of the patches: the same t and, unless hits are tied, the same patch. */
 static void shuffled(struct set_up *s)
 {
   const struct hit *alone = answers_alone(s);
@@ -250,7 +251,7 @@ static void shuffled(struct set_up *s)
   }
   world_close(&world);
   assert_int_equal(wrong, 0);
-  assert_true(tied < STAGE_RAYS * 2 / 3); /* of flat patches, which meet at borders and lie on each other */
+  assert_true(tied < STAGE_RAYS * 2 / 3); /* flat patches, which meet at borders and lie on each other */
 }
 
 static void answers_do_not_depend_on_the_order_of_patches(void **state)

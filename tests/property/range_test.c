@@ -1,5 +1,5 @@
-/* Rays, patches and lengths from one end of the doubles to the other, all against all: a ray through the middle of a
- * patch meets it, whatever their sizes are and wherever it starts. */
+/* Rays, patches and lengths over the whole range of doubles, in all combinations: a ray through the middle of a
+ * patch meets it, whatever their sizes and wherever the ray starts. */
 #include <float.h>
 #include <string.h>
 #include <math.h>
@@ -22,18 +22,18 @@ static double any_size(struct random *random, double least, double most)
   return size;
 }
 
-/* What is nearer to the ray's start than this, of the patch, 113 bits cannot tell from it. */
+/* A root nearer to the ray's start than this part of the patch cannot be told from it by 113 bits. */
 #define NEAR_START 1e-29
 
-/* Patches may be larger than what is proven (LARGEST_SIZE of model.c). Nearer than this, roots are not told from the
- * start there. */
+/* Patches may be larger than the proofs allow (LARGEST_SIZE of model.c). Then roots nearer than this are not told
+ * from the start. */
 #define LARGEST_PROVEN 0x1p1020
 #define NEAR_UNPROVEN 1e-6
 
-/* A ray that meets the patch next to its middle, at a t that is known to a part of `bend`. */
+/* A ray that meets the patch next to its middle, at a t known to a part of `bend`. */
 struct shot {
   struct ray ray;
-  double start; /* how far away it starts, of the size */
+  double start; /* the distance of its start, in sizes */
   wide t;
   bool hits; /* within the ray's range */
 };
@@ -51,7 +51,7 @@ static struct shot make_shot(struct random *random, int k, double size)
     shot.ray.direction[c] = along ? side * length : 0;
   }
   const double twice = (double)(2 * shot.t), half = (double)(shot.t / 2);
-  const bool plain = half >= DBL_MIN && twice <= DBL_MAX && shot.start > 1e3; /* where the bend does not matter */
+  const bool plain = half >= DBL_MIN && twice <= DBL_MAX && shot.start > 1e3; /* then the bend does not matter */
   switch (random_bits(random) % 4) {
   case 0:
     if (plain) shot.ray.t_max = twice;
@@ -137,8 +137,8 @@ static void rays_and_patches_of_all_sizes(void **state)
 
 enum { CROWDS = 150, CROWD = 4 };
 
-/* Patches through each other, some of them through the origin: with a pole there, or a corner, or the middle. In whole numbers, so that
- * a ray can go there exactly. */
+/* Patches through each other, some through the origin: with a pole there, a corner, or the middle. Coordinates are
+ * whole numbers, so that a ray can meet the origin exactly. */
 static void crowd_fill(struct random *random, world_net nets[CROWD])
 {
   for (int p = 0; p < CROWD; p++) {
@@ -151,7 +151,7 @@ static void crowd_fill(struct random *random, world_net nets[CROWD])
   }
 }
 
-/* From so far away that only wide arithmetic tells one hit from another a ray meets what it meets from near by. */
+/* A ray from so far away that only wide arithmetic tells one hit from another meets what it meets from nearby. */
 static void far_rays_meet_what_near_ones_meet(void **state)
 {
   (void)state;
@@ -190,8 +190,8 @@ static void far_rays_meet_what_near_ones_meet(void **state)
 
 enum { ACROSS = 24, FAR_RAYS = 64, FEW_LEAVES = 40 };
 
-/* However far away a ray starts, it is tried on the leaves along it only: from 2^40 to 2^100 scenes away, exactly along
- * a diagonal over a floor of patches. */
+/* However far away a ray starts, it is tried only on the leaves along it: from 2^40 to 2^100 scenes away, exactly
+ * along a diagonal over a floor of patches. */
 static void far_rays_pass_by_what_is_not_on_their_way(void **state)
 {
   (void)state;
@@ -219,7 +219,7 @@ static void far_rays_pass_by_what_is_not_on_their_way(void **state)
   world_close(&world);
 }
 
-/* Where all points are the origin, which has no size to go by, rays beside it are not tried on any patch. */
+/* If all points are the origin, the scene has no size; rays beside it are not tried on any patch. */
 static void rays_pass_by_a_scene_of_one_point(void **state)
 {
   (void)state;
@@ -240,7 +240,7 @@ static void rays_pass_by_a_scene_of_one_point(void **state)
   world_close(&world);
 }
 
-/* Over a square with a corner in the origin of the plane, that high there. */
+/* A floor over a square with a corner in the origin of the plane, at that height there. */
 static void floor_at(double height, double size, double bend, world_net net)
 {
   for (int n = 0; n < 16; n++) {
@@ -249,9 +249,9 @@ static void floor_at(double height, double size, double bend, world_net net)
   }
 }
 
-/* Where scaling a direction takes digits off it, or off an end of the ray, next to which the answer turns, nothing is
- * certain: a ray past a corner, by less than a double has beside its length; and hits one place from an end. But the last of
- * them keeps all. */
+/* Where scaling takes digits off a direction, or off an end of the ray, and the answer turns on them, nothing is
+ * certain: a ray that passes a corner by less than a double resolves beside its length, and hits one place from an
+ * end. The last ray keeps all digits. */
 static void what_scaling_takes_away_is_in_doubt(void **state)
 {
   (void)state;
@@ -277,8 +277,8 @@ static void what_scaling_takes_away_is_in_doubt(void **state)
   }
 }
 
-/* A pole that the ray meets exactly, next to its start: t is so small that no double can say what it is rounded by, and is known
- * to lie on one side of t_min all the same. */
+/* The ray meets a pole exactly, next to its start. t is so small that no double can hold its rounding error; still
+ * the pole is known to lie on one side of t_min. */
 static void poles_next_to_the_start_are_told(void **state)
 {
   (void)state;
@@ -300,7 +300,7 @@ static void poles_next_to_the_start_are_told(void **state)
   world_close(&world);
 }
 
-/* Patches far smaller than 2^-100 of their scene, which is as small as a frame gets, are hit with all that a hit has. */
+/* Hits on patches far smaller than 2^-100 of their scene, the smallest size of a frame, have all their parts. */
 static void patches_lost_in_their_scene_have_normals(void **state)
 {
   (void)state;
@@ -310,7 +310,7 @@ static void patches_lost_in_their_scene_have_normals(void **state)
     const double size = ldexp(1, -k / 2);
     floor_at(0, ldexp(1, k - k / 2), 0, nets[0]);
     floor_at(0, 1, 0, nets[1]);
-    for (int n = 0; n < 16; n++) { /* z = -(x + y), from the origin on */
+    for (int n = 0; n < 16; n++) { /* z = -(x + y), through the origin */
       double *p = nets[1][n / 4][n % 4];
       p[0] = (n / 4 - 1) * size, p[1] = (n % 4 - 1) * size, p[2] = -(p[0] + p[1]);
       nets[0][n / 4][n % 4][2] = -2 * ldexp(1, k - k / 2);
@@ -325,7 +325,7 @@ static void patches_lost_in_their_scene_have_normals(void **state)
   }
 }
 
-/* A ray that starts in a corner, exactly, does not meet it, and that is known. */
+/* A ray that starts exactly in a corner is known not to meet it. */
 static void rays_from_a_corner_leave_it(void **state)
 {
   (void)state;
@@ -344,8 +344,8 @@ static void rays_from_a_corner_leave_it(void **state)
   world_close(&world);
 }
 
-/* What such a ray meets beyond, in the same leaf or on borders too, is what one meets that starts before the corner and whose range
- * begins there; a whole patch is one leaf. Every third patch has a pole in that corner. */
+/* Beyond its corner, in the same leaf or on borders too, such a ray meets what a ray meets that starts before the
+ * corner and whose range begins there. A whole patch is one leaf; every third patch has a pole in that corner. */
 static void rays_from_a_corner_meet_what_is_beyond(void **state)
 {
   (void)state;
@@ -374,7 +374,7 @@ static void rays_from_a_corner_meet_what_is_beyond(void **state)
     if (ray.direction[0] != 0 || ray.direction[1] != 0 || ray.direction[2] != 0) {
       const struct hit hit = world_closest(&world, &ray), other = world_closest(&world, &before);
       const bool same = hit.patch == HIT_NONE ? other.patch == HIT_NONE : fabs(hit.t + 1 - other.t) <= 1e-15 * other.t;
-      const bool sure = hit.certainty == CERTAINTY_CERTAIN; /* the other one meets the corner, where its range begins */
+      const bool sure = hit.certainty == CERTAINTY_CERTAIN; /* the other ray meets the corner, where its range begins */
       if (sure && !same) {
         world_print_case("from a corner", 0, &ray, &hit, &other);
         fail();

@@ -1,4 +1,4 @@
-/* What is proven of one ray and one leaf: the plane polynomials' error bound, and the Newton-Kantorovich test. */
+/* Claims about one ray and one leaf hold: the error bound of the plane polynomials, and the Newton-Kantorovich test. */
 #include <math.h>
 #include <string.h>
 
@@ -61,8 +61,8 @@ static void collapse(world_net net, int border)
   }
 }
 
-/* Calls `body` for so many rays at leaves of scenes near and far, cut into split x split of them (0: as it is best), with
- * directions of all sizes the tracer passes on; `poles`: of patches that have one each. */
+/* Calls `body` for `cases` rays at leaves of scenes near and far, cut into split x split leaves (0: the default
+ * cut), with directions of all sizes that the tracer passes on; `poles`: of patches with one pole each. */
 static void on_leaves(uint64_t seed, int split, bool poles, int cases,
                       void (*body)(struct subject *s, struct random *random))
 {
@@ -85,7 +85,7 @@ static void on_leaves(uint64_t seed, int split, bool poles, int cases,
         s.ray = world_ray(&random, nets, count, n % RAY_KINDS);
         const int exponent = n % 3 == 0 ? 0 : n % 3 == 1 ? 199 : -199;
         for (int k = 0; k < 3; k++) s.ray.direction[k] = ldexp(s.ray.direction[k], exponent);
-        if (n % 5 == 0) /* from far */
+        if (n % 5 == 0) /* from far away */
           for (int k = 0; k < 3; k++) s.ray.origin[k] -= ldexp(s.ray.direction[k], 26 - exponent);
         s.leaf = &s.model->leaves[random_bits(&random) % s.model->leaf_count];
         double w[16];
@@ -116,7 +116,7 @@ static void check_planes(struct subject *s, struct random *random)
     for (int n = 0; n < 16; n++)
       worst_net = fmax(worst_net, (double)quad_abs((quad)net[n] - s->truth.net[p].c[n / 4][n % 4]) / s->local.error);
   }
-  /* start and to_t: t of the local place 0. */
+  /* start and to_t give t of the local place 0. */
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
   const int k = s->local.axis;
   const quad t = ((quad)patch->center[k] - s->ray.origin[k]) / s->ray.direction[k];
@@ -136,13 +136,13 @@ static void the_plane_polynomials_are_within_their_error(void **state)
   assert_true(worst_t <= 2);
 }
 
-/* What became of the claims on proven roots. */
+/* Counts of the claims on proven roots, and of those that fail. */
 struct tally {
   int exist, alone, outside_radius, not_alone;
   double worst_radius;
 };
 
-/* Checks the claims of lane 0, and sets (u,v) to the exact root. Returns whether there is one. */
+/* Checks the claims of lane 0, and sets (u,v) to the exact root. Returns whether that exists. */
 static bool check_root(const struct truth *truth, const struct newton_root *r, struct random *random,
                        struct tally *tally, quad *u, quad *v)
 {
@@ -158,7 +158,7 @@ static bool check_root(const struct truth *truth, const struct newton_root *r, s
   tally->worst_radius = fmax(tally->worst_radius, fmax(du / r->radius_u[0], dv / r->radius_v[0]));
   if (!(lanes_bits(r->alone) & 1)) return true;
   tally->alone++;
-  for (int n = 0; n < 25; n++) { /* no second root, from wherever it is looked for */
+  for (int n = 0; n < 25; n++) { /* no second root, wherever the search starts */
     quad x = (n % 5 + random_unit(random)) / 5, y = (n / 5 + random_unit(random)) / 5;
     if (!quad_root(truth->net, &x, &y)) continue;
     if (x < 0 || x > 1 || y < 0 || y > 1) continue;
@@ -167,8 +167,8 @@ static bool check_root(const struct truth *truth, const struct newton_root *r, s
   return true;
 }
 
-/* Turns the ray to a point of the leaf, from some of its sizes away; the smaller `slant` is, the flatter, and the
- * more likely to meet the leaf twice. */
+/* Turns the ray to a point of the leaf, from some leaf sizes away. The smaller `slant` is, the flatter the ray, and
+ * the more likely it meets the leaf twice. */
 static void aim(struct subject *s, struct random *random, double slant)
 {
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
@@ -189,8 +189,8 @@ static void aim(struct subject *s, struct random *random, double slant)
   }
 }
 
-/* The root that the kernel's process ends at from there, on all lanes alike; by what its quadric tells of the whole line, alone on
- * the leaf as well. */
+/* The root at which the kernel's iteration from there ends, alike on all lanes. Its quadric, over the whole line,
+ * may also prove it alone on the leaf. */
 static void solve(struct subject *s, const double start[2], struct leaf_root *out)
 {
   struct ray rays[LANES];
@@ -212,7 +212,7 @@ static void solve(struct subject *s, const double start[2], struct leaf_root *ou
 }
 
 static struct tally refined;
-static double worst_inside; /* the point, of leaf_parts.error and a rounding */
+static double worst_inside; /* the point, in units of leaf_parts.error and a rounding */
 
 static void check_refine(struct subject *s, struct random *random)
 {
@@ -232,7 +232,7 @@ static void check_refine(struct subject *s, struct random *random)
   }
 }
 
-/* However bent the leaves are, and whether they are cut exactly or not. */
+/* However bent the leaves are, and whether or not they are cut exactly. */
 static void proven_roots_are_where_they_are_said_to_be(void **state)
 {
   (void)state;
@@ -254,7 +254,7 @@ static void proven_roots_are_where_they_are_said_to_be(void **state)
 }
 
 static struct tally fan_roots;
-static int by_pole; /* alone, though without the pole neither derivatives nor the quadric say so */
+static int by_pole; /* alone by the pole; without it neither derivatives nor the quadric prove it */
 
 static void check_fan(struct subject *s, struct random *random)
 {
@@ -273,7 +273,7 @@ static void check_fan(struct subject *s, struct random *random)
   if (lanes_bits(root.at.alone & ~plain.at.alone) & 1) by_pole++;
 }
 
-/* Though the Jacobian is singular along the pole. */
+/* The Jacobian is singular along the pole. */
 static void roots_next_to_poles_are_alone_where_they_are_said_to_be(void **state)
 {
   (void)state;
@@ -290,10 +290,10 @@ static void roots_next_to_poles_are_alone_where_they_are_said_to_be(void **state
 }
 
 static struct tally leaf_roots;
-static int by_quadric; /* alone, though the root's derivatives alone do not say so */
+static int by_quadric; /* alone by the quadric; the derivatives at the root alone do not prove it */
 static double worst_residual, worst_place, worst_point, worst_tangent;
 
-/* Of the rows of the inverse Jacobian there, as covectors of space. */
+/* The lengths of the rows of the inverse Jacobian there, as covectors of space. */
 static void row_lengths(const struct subject *s, quad u, quad v, double out[2])
 {
   const struct quad_jet a = quad_net_jet(&s->truth.net[0], u, v), b = quad_net_jet(&s->truth.net[1], u, v);
@@ -319,8 +319,8 @@ static void check_leaf_root(struct subject *s, struct random *random)
   row_lengths(s, u, v, size);
   const double turn = size[0] * (second[0] + second[1]) + size[1] * (second[1] + second[2]);
   if ((lanes_bits(root.at.alone) & 1) && turn > 2 * CERTIFICATE_ALONE) by_quadric++;
-  /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of
-   * u and v, and the bend's. */
+  /* Distance from the ray: one rounding of a coordinate of the patch, of size 1; of the surface's way under the
+   * rounding of u and v; and of the bend's. */
   const quad at_u = root.at.u[0], at_v = root.at.v[0];
   for (int n = 0; n < 2; n++) {
     const quad off = quad_net_jet(&s->truth.net[n], at_u, at_v).value;

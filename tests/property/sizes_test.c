@@ -1,4 +1,5 @@
-/* Scenes whose parts differ in size and place as far as doubles reach: each part is answered as if there were nothing else. */
+/* Scenes whose parts differ in size and place over the whole range of doubles: each part is answered as if it were
+ * alone. */
 #include <math.h>
 #include <pthread.h>
 
@@ -8,11 +9,11 @@
 
 enum { SEED = 20261122, RAYS = 24 };
 
-/* How many leaves rays were tried on. */
+/* The number of leaves that rays were tried on. */
 static uint64_t tried(const struct world *world) { return tracer_counts(world->tracer)->patches_tested; }
 
-/* Villages, and a patch all by itself, so far apart that floats in the frame of the whole would not tell the patches of one
- * from one another. */
+/* Villages, and a single patch, so far apart that floats in the frame of the whole would not resolve the patches of
+ * a village. */
 enum { VILLAGES = 3, VILLAGE = 60, VILLAGERS = VILLAGES * VILLAGE };
 
 static void village(struct random *random, const double at[3], world_net nets[VILLAGE])
@@ -27,7 +28,7 @@ static void village(struct random *random, const double at[3], world_net nets[VI
   }
 }
 
-/* Rays at a village are answered as if there were nothing else, and by trying no more leaves. */
+/* Rays at a village are answered as if nothing else existed, and are tried on no more leaves. */
 static void what_is_far_away_costs_nothing(void **state)
 {
   (void)state;
@@ -44,7 +45,7 @@ static void what_is_far_away_costs_nothing(void **state)
         nets[VILLAGERS][n / 4][n % 4][k] = at[VILLAGES][k] + (k == 0) * (n / 4) + (k == 1) * (n % 4);
     struct world all, alone;
     world_open(&all, nets, VILLAGERS + 1, NULL);
-    for (int v = 0; v < (apart > 1e12 ? 1 : VILLAGES); v++) { /* the others are rounded to pieces then */
+    for (int v = 0; v < (apart > 1e12 ? 1 : VILLAGES); v++) { /* farther apart, rounding destroys the others */
       const uint64_t before = tried(&all);
       world_open(&alone, nets + VILLAGE * v, VILLAGE, NULL);
       for (int n = 0; n < 10 * RAYS; n++) {
@@ -58,7 +59,7 @@ static void what_is_far_away_costs_nothing(void **state)
         const struct hit other = world_closest(&alone, &ray);
         if (other.certainty != CERTAINTY_CERTAIN) continue;
         assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-        if (hit.patch < VILLAGERS && other.patch == HIT_NONE) continue; /* it goes on to another village */
+        if (hit.patch < VILLAGERS && other.patch == HIT_NONE) continue; /* the ray goes on to another village */
         if (hit.patch != HIT_NONE) hit.patch -= (uint32_t)(VILLAGE * v);
         assert_int_equal(hit.patch, other.patch);
         if (hit.patch != HIT_NONE) assert_true(fabs(hit.t - other.t) <= 0x1p-50 * other.t);
@@ -73,7 +74,7 @@ static void what_is_far_away_costs_nothing(void **state)
   assert_true(hits > 1000);
 }
 
-/* A bumpy square of that size in the plane y = 0, or with a corner there. */
+/* A bumpy square of that size in the plane y = 0, centered or with a corner there. */
 static void square(double size, bool corner, world_net net)
 {
   static const double bump[4] = {1, 2, 0, 1}, along[4] = {1, 0, 1, 2};
@@ -83,8 +84,7 @@ static void square(double size, bool corner, world_net net)
   }
 }
 
-/* Patches in one place, some of them up to 1e560 times as large as others: each is hit as if it were alone, in whatever order
- * they come. */
+/* Patches in one place, some up to 1e560 times as large as others: each is hit as if it were alone, in any order. */
 static void sizes_have_nothing_to_do_with_each_other(void **state)
 {
   (void)state;
@@ -129,10 +129,10 @@ static void sizes_have_nothing_to_do_with_each_other(void **state)
   assert_true(hits > SCENES * RAYS);
 }
 
-/* Bowls round 0, each 2^8 times as wide as the next one, from one end of the doubles to the other, and a crowd at the bottom. */
+/* Bowls round 0, each 2^8 times as wide as the next, over the whole range of doubles, and a crowd at the bottom. */
 enum { BOWLS = 240, AT_THE_BOTTOM = 17000, DEEP_RAYS = 16 };
 
-/* What a call may take, as of pscn.h. The sanitizers' frames are larger. */
+/* The stack that a call may take, by pscn.h. The sanitizers' frames are larger. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 enum { DEEP_STACK = 12 << 20 };
 #else
@@ -161,7 +161,7 @@ static void *go_deep(void *context)
   return d;
 }
 
-/* How many frames are within one another. */
+/* How deep frames are nested. */
 static int frames_in(const struct model_tree *tree)
 {
   int most = 0;
@@ -185,7 +185,7 @@ static void frames_within_frames_take_little_stack(void **state)
   (void)state;
   static world_net nets[BOWLS + AT_THE_BOTTOM];
   static struct deep d;
-  for (int crowd = 0; crowd < 2; crowd++) { /* with it the rays go apart */
+  for (int crowd = 0; crowd < 2; crowd++) { /* with the crowd, rays travel separately */
     for (int k = 0; k < BOWLS; k++) {
       const double size = exp2(1000 - 8.2 * k);
       for (int n = 0; n < 16; n++) {

@@ -1,4 +1,4 @@
-/* The methods on lanes (all_roots.c), whole patches and leaves: their answers are the default's, and a ray's answer
+/* The methods on lanes (all_roots.c), on whole patches and leaves, give the default's answers, and a ray's answer
  * does not depend on the rays beside it. */
 #include <string.h>
 
@@ -76,7 +76,7 @@ static void answers_are_the_defaults(void **state)
     print_message("; %s %d, %d", ways[way - 1].name, certain[way], (int)escalated[way]);
   print_message("\n");
   assert_int_equal(wrong, 0);
-  /* Not vacuous: most rays hit for certain, and what is certain does not become doubtful. */
+  /* Most rays hit for certain, and what is certain does not become doubtful. */
   assert_true(certain[0] > SCENES * WORLD_KINDS * RAYS / 4);
   for (int way = 1; way <= WAYS; way++) assert_true(certain[way] >= certain[0] - certain[0] / 500);
 }
@@ -107,8 +107,9 @@ static void answers_do_not_depend_on_companions(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* Where eps asks for less than a rounding the values of the methods that move all roots at once end beside the axis, and are
- * real all the same: the paper's form loses no more hits than at an eps that they meet, and has no more phantoms. */
+/* If eps asks for less than a rounding, the methods that move all roots at once end beside the real axis; their
+ * values are accepted as real. The paper's form then loses no more hits than at an eps that they reach, and has no
+ * more phantoms. */
 static void rounding_makes_no_root_complex(void **state)
 {
   (void)state;

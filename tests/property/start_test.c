@@ -1,4 +1,5 @@
-/* Hits next to their rays' starts: t is right to its last places however small it is beside the patch, and in any company. */
+/* Hits next to their rays' starts: t is right to its last places, however small it is beside the patch, and in any
+ * packet. */
 #include <math.h>
 
 #include "cmocka_test.h"
@@ -7,11 +8,11 @@
 
 enum { SEED = 20261123, SCENES = 12, PACKETS = 40, RAYS = PACKET_SIZE };
 
-/* Rays start so near to the surface, in powers of two of a scene of size 1; from the third on, where a patch's own digits no
- * longer say what t is, t is rounded only once. */
+/* How near to the surface rays start, in powers of two of a scene of size 1. Nearer than NEAR, a patch's own digits
+ * no longer determine t, and t is rounded only once. */
 enum { FARTHEST = -8, NEAREST = -42, NEAR = -19 };
 
-/* A ray to where another one has hit the scene, from next to it; the point is rounded, so t is what the reference says. */
+/* Makes a ray to a hit of another ray, from next to it. The point is rounded, so the reference says what t is. */
 static bool next_to_surface(struct random *random, const struct world *world, world_net *nets, size_t count, int n,
                             struct ray *out)
 {
@@ -25,7 +26,7 @@ static bool next_to_surface(struct random *random, const struct world *world, wo
   return true;
 }
 
-static double worst[2]; /* of those that are near last */
+static double worst[2]; /* the last entry: of near starts */
 static int told[2];
 
 static void check(const struct reference *reference, const struct ray *ray, const struct hit *hit)
@@ -35,7 +36,7 @@ static void check(const struct reference *reference, const struct ray *ray, cons
   if (exact.verdict != REFERENCE_HIT || hit->certainty != CERTAINTY_CERTAIN) return;
   assert_int_not_equal(hit->patch, HIT_NONE);
   const double t = (double)exact.t, place = nextafter(t, INFINITY) - t;
-  if (exact.shared || exact.t_radius > 0.01 * place) return; /* it may tell of the neighbour; it may be seen edge-on */
+  if (exact.shared || exact.t_radius > 0.01 * place) return; /* the neighbour's hit, or edge-on */
   const double *d = ray->direction;
   const bool near = t * sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) < exp2(NEAR);
   told[near]++;

@@ -1,5 +1,5 @@
-/* Scenes that several threads prepare: the model is that of one thread, to the last bit, however the work is shared
- * out; where threads are short there is none. */
+/* A model prepared by several threads is that of one thread, to the last bit, however the work is divided; if
+ * threads run short, there is no model. */
 #define _GNU_SOURCE /* pthread_getattr_np */
 #include <pthread.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum { SEED = 20261123 };
 
-/* What a model is made of: a height field of so many patches that share their borders, or copies of pieces of it. */
+/* The input of a model: a height field of patches that share their borders, or copies of pieces of it. */
 struct trial {
   struct scene scene;
   struct method solvers[2];
@@ -118,7 +118,7 @@ static void assert_same(const struct model *a, const struct model *b)
   for (size_t k = 0; k < a->object_count; k++) assert_same(a->objects[k].model, b->objects[k].model);
 }
 
-/* Teams without threads: the last worker finds all the work, and what workers answer is the answer; nobody comes. */
+/* Teams without threads: the last worker finds all the work; a worker's failure is the team's; no worker comes. */
 static enum status last_first(size_t count, team_work *work, void *context)
 {
   enum status status = STATUS_OK;
@@ -175,7 +175,7 @@ static void copied(void **state)
   try_teams(10, 300, 0, true);
 }
 
-/* Whichever of its calls for a team comes to nothing. */
+/* Whichever of its calls for a team fails. */
 static void short_of_threads(void **state)
 {
   struct trial trial;
@@ -194,7 +194,7 @@ static void short_of_threads(void **state)
   trial_close(&trial);
 }
 
-/* What few patches want is done before another thread has begun. */
+/* The work for a few patches is done before another thread has begun. */
 static void few(void **state)
 {
   struct trial trial;
@@ -219,7 +219,7 @@ static enum status measure_stack(void *context, size_t worker)
   return STATUS_OK;
 }
 
-/* Where little stack is the rule (`ulimit -s`), a thread has what hard rays take all the same. */
+/* If little stack is the default (`ulimit -s`), a thread still has what hard rays take. */
 static void little_stack(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
-/* Patches that lie exactly on earlier ones: the nearest hit is what it is without them, to the last bit, and all hits
- * are those and as many more. */
+/* Patches that lie exactly on earlier ones: the nearest hit is the one without them, to the last bit, and all hits
+ * are those without them, repeated for each twin. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,14 +27,14 @@ static bool same_surface(world_net P, world_net Q)
   return same;
 }
 
-/* Patches that lie on each other, and the same without those that lie on earlier ones. */
+/* A scene of patches that lie on each other, and one without those that lie on earlier ones. */
 struct pair {
   struct scene scene[2];
   struct intersector *intersector[2];
   struct tracer *tracer[2];
-  uint32_t first[MOST];   /* which patch of the first scene each of the second one's is, ... */
-  size_t times[MOST];     /* ... how many of the first one are the same surface, ... */
-  uint32_t surface[MOST]; /* ... and which of the second one's each of the first one's is */
+  uint32_t first[MOST];   /* for each patch of the second scene, its index in the first one; */
+  size_t times[MOST];     /* how many patches of the first scene are that surface; */
+  uint32_t surface[MOST]; /* for each patch of the first scene, its surface in the second */
 };
 
 static void twins_fill(struct pair *pair, struct random *random, world_net nets[], size_t count, size_t solver_count)
@@ -53,7 +53,7 @@ static void twins_fill(struct pair *pair, struct random *random, world_net nets[
   pair->scene[0].patch_count = most;
 }
 
-/* Leaves the earlier patches' twins out of the second scene. */
+/* Leaves out of the second scene the patches that lie on earlier ones. */
 static void twins_leave(struct pair *pair)
 {
   struct scene *all = &pair->scene[0], *few = &pair->scene[1];
@@ -77,7 +77,7 @@ static void pair_prepare(struct pair *pair)
   }
 }
 
-/* far: so many small patches besides. */
+/* far: the number of small patches far away that are added. */
 static void pair_open(struct pair *pair, struct random *random, world_net nets[], size_t count, size_t far,
                       struct method solvers[], size_t solver_count)
 {
@@ -105,7 +105,7 @@ static void pair_close(struct pair *pair)
   }
 }
 
-/* Every hit of the scene without twins is there as often as its surface is. */
+/* Every hit of the scene without twins occurs as often as its surface does. */
 static void assert_all_there(const struct pair *pair, const struct hit_list *all, const struct hit_list *few)
 {
   size_t left[MOST] = {0}, sum = 0;
@@ -114,7 +114,7 @@ static void assert_all_there(const struct pair *pair, const struct hit_list *all
   for (size_t k = 0; k < few->count; k++) left[few->hits[k].patch] += pair->times[few->hits[k].patch];
   for (size_t k = 0; k < all->count; k++) left[pair->surface[all->hits[k].patch]]--;
   for (size_t n = 0; n < MOST; n++) assert_int_equal(left[n], 0);
-  for (size_t k = 1; k < all->count; k++) { /* twins' in the order of their patches */
+  for (size_t k = 1; k < all->count; k++) { /* twins in the order of their patches */
     const struct hit *before = &all->hits[k - 1], *here = &all->hits[k];
     assert_true(before->t <= here->t);
     if (before->t == here->t && pair->surface[before->patch] == pair->surface[here->patch])
@@ -179,11 +179,11 @@ static void that_are_not_kept(void **state)
   struct method solver;
   (void)state;
   method_default(solver_at(0), &solver);
-  solver.split = 1; /* in either scene */
+  solver.split = 1; /* in both scenes */
   on_each_kind(FAR, &solver, 1);
 }
 
-/* Copies of an object, one of whose patches lies on another; half of them lie on other copies. */
+/* Copies of an object, one of whose patches lies on another; half of the copies lie on other copies. */
 struct copies {
   struct scene_object object;
   struct scene scene;
@@ -248,8 +248,9 @@ static void that_are_copies(void **state)
 
 enum { SHEETS = 7, STACKS = 200, STACK_RAYS = 8 };
 
-/* Of sheets in any order, so near to each other that wide arithmetic tells only those from each other that are not next: whatever is
- * told keeps to what it tells, though of three each may be at one t with the next and the first still before the last. */
+/* Sheets in any order, so close that wide arithmetic tells apart only those that are not next to each other. Every
+ * answer must be consistent, although each of three sheets may be at one t with the next while the first is before
+ * the last. */
 static void sheets_that_wide_arithmetic_just_tells(void **state)
 {
   (void)state;
@@ -259,7 +260,7 @@ static void sheets_that_wide_arithmetic_just_tells(void **state)
     world_net base, nets[SHEETS];
     int at[SHEETS];
     struct world world;
-    /* of a ray from 2^55 away 113 bits leave 2^-55 unknown, or some */
+    /* for a ray from 2^55 away, 113 bits leave about 2^-55 unknown */
     const double apart = ldexp(1, -57 + stack % 4);
     for (int n = 0; n < 16; n++) {
       base[n / 4][n % 4][0] = n / 4, base[n / 4][n % 4][1] = n % 4;
@@ -281,7 +282,7 @@ static void sheets_that_wide_arithmetic_just_tells(void **state)
       sure++;
       bool good = list.count == SHEETS && list.hits[0].patch == nearest.patch;
       int most = 0;
-      for (size_t k = 0; k < list.count; k++) { /* the farthest so far is not told from any behind it */
+      for (size_t k = 0; k < list.count; k++) { /* the farthest so far cannot be told from any behind it */
         const int here = at[list.hits[k].patch];
         most = here > most ? here : most;
         good = good && (most - here) * apart <= 0x1p-53;
@@ -296,7 +297,7 @@ static void sheets_that_wide_arithmetic_just_tells(void **state)
 
 enum { STEEP = 16, ROUNDS = 60 };
 
-/* A sheet through the z axis: flat in z = a x + b y but for its middle, which is `off` nearer to z = -1. */
+/* A sheet through the z axis: flat in z = a x + b y except for its middle, which is `off` nearer to z = -1. */
 static void sheet_through(double a, double b, double off, world_net out)
 {
   static const double along[4] = {-1, 0, 0, 1};
@@ -307,8 +308,8 @@ static void sheet_through(double a, double b, double off, world_net out)
     }
 }
 
-/* Two sheets that wide arithmetic just tells apart, with so many steep ones among them, whose t it knows less well, that no one
- * could keep all: the sheet that is behind the other is none the more the nearest. */
+/* Two sheets that wide arithmetic just tells apart, among more steep ones, whose t it knows less well, than could
+ * all be kept. The sheet behind the other must not become the nearest. */
 static void sheets_with_many_that_are_not_told_from_them(void **state)
 {
   (void)state;
@@ -324,7 +325,7 @@ static void sheets_with_many_that_are_not_told_from_them(void **state)
       const size_t steep = k ? STEEP : 0;
       struct world world;
       for (size_t p = 1; p <= steep; p++) {
-        const double steepness = 64; /* more, and their t is known so badly that who is first is in doubt */
+        const double steepness = 64; /* steeper, and their t is so inexact that the order is in doubt */
         sheet_through(random_between(&random, -1, 1) * steepness, random_between(&random, -1, 1) * steepness, apart / 2,
                       nets[p]);
       }
@@ -342,8 +343,8 @@ static void sheets_with_many_that_are_not_told_from_them(void **state)
   assert_true(told > ROUNDS / 4);
 }
 
-/* Two planes that meet on the ray are met at one t. Which of them comes first is no matter where it meets them at a slant of
- * 1 : 256 or steeper, and their t is known well; else it is a doubt. */
+/* Two planes that meet on the ray are met at one t. If the ray meets them at a slant of 1 : 256 or steeper, their t
+ * is known well, and which comes first does not matter; else the answer is in doubt. */
 static void what_comes_first_edge_on_is_in_doubt(void **state)
 {
   (void)state;

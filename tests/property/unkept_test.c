@@ -1,5 +1,5 @@
-/* Scenes of so many patches that neither patches nor leaves are kept: the answers are those of kept ones, to the last
- * bit, and memory is what is promised. */
+/* Scenes with so many patches that neither patches nor leaves are kept: answers are those with kept ones, to the
+ * last bit, and memory stays within the promised bounds. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,8 +15,8 @@
 
 enum { SEED = 20261122, RAYS = 400, MANY = 70000 };
 
-/* The nets alone, or with small patches far away besides: one leaf each in either case; and with a floor so wide that they are in
- * a tree of their own. */
+/* The nets alone, or with small patches far away added: one leaf each in both cases. With a floor added too, so wide
+ * that the small ones are in a tree of their own. */
 struct side {
   struct scene scene;
   struct intersector *intersector;
@@ -39,7 +39,7 @@ static void side_open(struct side *side, struct method *solver, world_net nets[]
   }
   if (floored) patch++;
   for (size_t p = 0; p < count; p++, patch++) memcpy(patch->P, nets[p], sizeof nets[p]);
-  const double size = floored ? 0.01 : 1; /* of the far ones: tiny ones have a tree in that above the floor */
+  const double size = floored ? 0.01 : 1; /* of the far ones: tiny ones have a tree within the floor's */
   for (size_t p = 0; p < far; p++, patch++)
     for (int n = 0; n < 48; n++) patch->P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(&random, 0, size);
   assert_int_equal(intersector_create(&side->scene, &side->intersector), STATUS_OK);
@@ -90,7 +90,7 @@ static void answers_are_the_same(void **state)
     method_default(solver_find(solvers[kind % 3], strlen(solvers[kind % 3])), &solver);
     solver.split = kind % 4 == 0 ? 2 : 1;
     for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY, kind % 2);
-    struct tracer anew; /* unlike the other one it remembers no leaves, and makes each anew */
+    struct tracer anew; /* remembers no leaves, unlike the other one, and makes each anew */
     tracer_begin(sides[1].intersector, &anew);
     const int hits = compare(kind, (struct tracer *[]){sides[0].tracer, sides[1].tracer}, &random, nets, count) +
                      compare(kind, (struct tracer *[]){sides[0].tracer, &anew}, &random, nets, count);
@@ -101,11 +101,12 @@ static void answers_are_the_same(void **state)
   }
 }
 
-/* What a patch may take of the process from its text to rays, in bytes, at the worst moment: while it is read, and in all where it
- * is one leaf; and where it is four, the most there may be, of 140 bytes each with their part of the hierarchy. */
+/* The memory of the process that a patch may take from its text to rays, in bytes, at the worst moment: while it is
+ * read, in all if it is one leaf; and if it is four leaves, the maximum, of 140 bytes each with their part of the
+ * hierarchy. */
 enum { PATCH_BYTES = 1024, PATCH_BYTES_OF_FOUR = 1152 };
 
-/* Of this process alone: getrusage counts what the one that started it had. */
+/* Of this process alone: getrusage includes its parent's. */
 static long peak_bytes(void)
 {
   char line[256];
@@ -118,7 +119,7 @@ static long peak_bytes(void)
   return kilobytes * 1024;
 }
 
-/* Patches that are off a plane by so much of their size. */
+/* Patches that are off a plane by `bend` of their size. */
 static void write_scene(const char *path, double bend, const char *line)
 {
   struct random random = {SEED};
@@ -159,7 +160,7 @@ static void take_peak(const char *path, struct peak *out)
   scene_destroy(scene);
 }
 
-/* In a process of its own, which has had nothing yet. */
+/* Runs in a process of its own, which has used no memory before. */
 static void check_memory(double bend, long most)
 {
   static const char path[] = "unkept_test.pscn";
@@ -200,10 +201,10 @@ static void memory_is_bounded(void **state)
 static void keep_text(void *context, const char *text, size_t length)
 {
   assert_true(length < 1000);
-  memcpy(context, text, length); /* where it is zeroed */
+  memcpy(context, text, length); /* if it is zero-terminated */
 }
 
-/* That line of the text has been given back when the end tells of an error there. */
+/* The line of the text is already released when an error is reported there at the end. */
 static void errors_show_their_lines(void **state)
 {
   static const char path[] = "unkept_error_test.pscn";
@@ -221,7 +222,7 @@ static void errors_show_their_lines(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_bounded), /* first: a peak stays */
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_bounded), /* first, because a peak stays */
                                      cmocka_unit_test(errors_show_their_lines), cmocka_unit_test(answers_are_the_same)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
-/* Scenes made so that a ray takes long: it is told what is known when its share of work is done, grazing, and what is
- * certain still is.
- */
+/* Scenes made to keep a ray busy: when its share of work is used up, the ray gets what is known, as grazing; what is
+ * certain stays so. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,14 +9,14 @@
 
 enum { SEED = 20261122, MOST_PATCHES = 1000, RAYS = 24 };
 
-/* What one ray may take: leaves tried, leaves left open (after some of them all), work of the last resort; where all hits
- * are asked for, more. See lanes/packet.h and exact/judge.c. */
+/* The limits for one ray: leaves tried; leaves left open (after some of them, all); work of the last resort. They
+ * are higher if all hits are asked for. See lanes/packet.h and exact/judge.c. */
 enum { TRIED = 65536, DEAR = 4096, OPEN = DEAR, OPEN_ALL = 1024 + 1, WORK = 5632, WORK_ALL = 49152, OF_ALL = 4 };
 
 typedef void fill(struct random *random, size_t number, size_t count, world_net net);
 typedef void aim(struct random *random, struct ray *ray);
 
-/* Nets that are equal but for a rounding or some: those that lie exactly on another one are no part of nearest hits. */
+/* Makes nets equal up to a rounding or a few: nets exactly on another one take no part in nearest hits. */
 static double off_by(size_t number) { return 1 + (double)number * 0x1p-52; }
 
 /* Points on a line, in no order. */
@@ -41,7 +40,7 @@ static void along_the_line(struct random *random, struct ray *ray)
   for (int k = 0; k < 3; k++) ray->origin[k] = -back * way[k], ray->direction[k] = way[k];
 }
 
-/* One point and fifteen equal others. */
+/* One point and fifteen others that are equal. */
 static void one_point(struct random *random, size_t number, size_t count, world_net net)
 {
   (void)random, (void)count;
@@ -55,7 +54,7 @@ static void end_on(struct random *random, struct ray *ray)
   for (int k = 0; k < 3; k++) ray->origin[k] = 5 + off * random_between(random, -1, 1), ray->direction[k] = -1;
 }
 
-/* Round one point, which is a corner of all of them. */
+/* Patches round one point, a corner of all of them. */
 static void fan(struct random *random, size_t number, size_t count, world_net net)
 {
   (void)random;
@@ -76,7 +75,7 @@ static void past_the_pole(struct random *random, struct ray *ray)
     for (int k = 0; k < 3; k++) ray->origin[k] = off * random_between(random, -1, 1);
 }
 
-/* The same bowl again and again, and rays next to its top. */
+/* The same bowl repeated, and rays next to its top. */
 static void bowls(struct random *random, size_t number, size_t count, world_net net)
 {
   (void)random, (void)count;
@@ -93,7 +92,7 @@ static void over_the_top(struct random *random, struct ray *ray)
   if (random_bits(random) % 4 == 0) ray->origin[0] = 0;
 }
 
-/* Flat ones, in their plane. */
+/* Flat patches, and rays in their plane. */
 static void floors(struct random *random, size_t number, size_t count, world_net net)
 {
   (void)random, (void)count;
@@ -140,7 +139,7 @@ static const struct made_up {
                {"floors", 1000, floors, in_the_plane},
                {"book", 1000, pages, along_the_spine}};
 
-/* What was counted since `before`, which becomes what is counted now. */
+/* The counts since `before`, which is then set to the present counts. */
 static struct intersect_counts counted(const struct world *world, struct intersect_counts *before)
 {
   const struct intersect_counts *now = tracer_counts(world->tracer);
@@ -195,7 +194,7 @@ static void a_ray_takes_no_more_than_its_share(void **state)
   }
 }
 
-/* A tunnel of arches, longer than a ray's share of leaves, and a wall behind it. */
+/* A tunnel of arches, more than a ray's share of leaves, and a wall behind it. */
 enum { ARCHES = 5000 };
 
 static void tunnel(world_net nets[])
@@ -210,8 +209,8 @@ static void tunnel(world_net nets[])
   }
 }
 
-/* A ray that is let go on its way through the tunnel is hidden, be it alone or together with one that comes by the wall
- * first and has the others do so too. */
+/* A ray whose work ends on its way through the tunnel counts as hidden, alone or together with a ray that reaches
+ * the wall first and makes the others do so too. */
 static void what_is_not_looked_at_hides(void **state)
 {
   (void)state;
@@ -236,8 +235,8 @@ static void what_is_not_looked_at_hides(void **state)
   world_close(&world);
 }
 
-/* As many sheets, one behind the other, that the ray passes next to an edge, so that each is tried; and a wall behind them,
- * which it meets. */
+/* As many sheets, one behind the other, which the ray passes next to an edge, so that it is tried on each; and a
+ * wall behind them, which it meets. */
 static void passed_sheet(size_t number, world_net net)
 {
   for (int n = 0; n < 16; n++) {
@@ -263,11 +262,11 @@ static void what_is_passed_by_hides_nothing(void **state)
   const struct hit hit = world_closest(&world, &ray);
   assert_int_equal(hit.patch, ARCHES);
   assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-  assert_true(tracer_counts(world.tracer)->patches_tested > DEAR); /* they are */
+  assert_true(tracer_counts(world.tracer)->patches_tested > DEAR); /* it was tried on them */
   world_close(&world);
 }
 
-/* What is counted without being tried. Of more patches than these neither they nor leaves are kept. */
+/* Work that is counted without leaves being tried. With more patches than KEPT, neither patches nor leaves are kept. */
 enum { KEPT = 1 << 16, CROWD = KEPT + 4096, THROUGH = 4000, FEW_LOOKS = 90000 };
 
 /* Flat nets through one point. */
@@ -279,7 +278,7 @@ static void through_the_point(struct random *random, world_net net)
     for (int k = 0; k < 3; k++) net[n / 4][n % 4][k] = (n / 4 - 1.5) * along[0][k] + (n % 4 - 1.5) * along[1][k];
 }
 
-/* A sheaf of straws, aslant so that each one's box is everyone's. */
+/* A sheaf of straws, at such a slant that their boxes all overlap. */
 static void straw(struct random *random, world_net net)
 {
   const double at[2] = {random_between(random, -1e-3, 1e-3), random_between(random, -1e-3, 1e-3)};
@@ -289,7 +288,7 @@ static void straw(struct random *random, world_net net)
   }
 }
 
-/* Far from all that. */
+/* Far from all others. */
 static void aside(struct random *random, world_net net)
 {
   double at[3];
@@ -297,8 +296,8 @@ static void aside(struct random *random, world_net net)
   for (int n = 0; n < 48; n++) net[n / 12][n / 3 % 4][n % 3] = at[n % 3] + random_between(random, 0, 1e-3);
 }
 
-/* The first rays of each packet are the hard ones. In company, asked alone where these take too much, they and those
- * beside are told what they are told alone. Returns how many of the hard ones are certain. */
+/* The first rays of each packet are the hard ones. They and the rays beside them get the same answers in the packet
+ * as alone, even if the hard ones exceed their share. Returns how many of the hard ones are certain. */
 static int certain_of(const struct world *world, size_t hard, const struct ray rays[PACKET_SIZE])
 {
   struct hit hits[PACKET_SIZE];
