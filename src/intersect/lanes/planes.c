@@ -195,14 +195,20 @@ static lane_mask leaves_start(const struct packet *p, const struct candidate *it
   return (least > off) | (nearest > 2 * it->line->error);
 }
 
-/* Rows behind the pole's border may be in the pole, too: a cone's handles, where they are at its ends. What holds for
- * the patch holds for its leaves. */
+/* Whether that control point of the leaf's patch is known to be in the leaf's pole. */
+static bool is_in_pole(const struct packet *p, const struct candidate *it, int at)
+{
+  if (p->outer) return false;
+  return same_points(p->model->scene->patches[it->leaf->patch].P, at, from_pole(it->leaf, 0, 0));
+}
+
+/* Sets `still` for the pole. Rows behind its border may be in the pole, too: a cone's handles, where they are at its ends.
+ * What holds for the patch holds for its leaves. In a copy only the border itself is known to be. */
 static void still_at_pole(const struct packet *p, const struct candidate *it, bool still[16])
 {
-  double(*P)[4][3] = p->model->scene->patches[it->leaf->patch].P;
   bool row = true;
   for (int steps = 0; steps < 4; steps++) {
-    for (int k = 0; k < 4; k++) row &= same_points(P, from_pole(it->leaf, steps, k), from_pole(it->leaf, 0, 0));
+    for (int k = 0; k < 4 && steps > 0; k++) row &= is_in_pole(p, it, from_pole(it->leaf, steps, k));
     for (int k = 0; k < 4; k++) still[from_pole(it->leaf, steps, k)] = row;
   }
 }
