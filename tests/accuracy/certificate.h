@@ -1,12 +1,11 @@
-/* Proves or refutes answers of the intersector, with what exact.h finds.
+/* Proves or refutes answers of the intersector, by the roots that exact.h finds.
  *
- * certain hit   proven where a root is at T, within CERTIFICATE_FLOORS of how far one rounding of each input, or of the
- *               patch's extent, moves it, and none is before it; refuted where there is none at T, or a proven one before it
- * certain miss  proven where there is no root, refuted where there is one
- * grazing       as an answer refuted where a proven root is lost: before T, or at all. A hit must be as near to ray and
- *               patch as trial.h's TRIAL_NEAR has it.
- * undecided     what exact.h left undecided matters
- */
+ * certain hit   proven if a root is at T, and none before it; refuted if no root is at T, or a proven one before it.
+ *               At T: within CERTIFICATE_FLOORS of what one rounding of each input, or of the patch's extent, moves it
+ * certain miss  proven if there is no root, refuted if there is one
+ * grazing       refuted if it loses a proven root: one before T, or any for a miss. A hit must be as near to ray and
+ *               patch as TRIAL_NEAR in trial.h says
+ * undecided     what exact.h left undecided matters */
 #ifndef TESTS_ACCURACY_CERTIFICATE_H
 #define TESTS_ACCURACY_CERTIFICATE_H
 
@@ -35,8 +34,8 @@ extern const char *const finding_names[FINDINGS];
 
 struct certificate {
   enum finding finding;
-  bool sure;      /* the hit, or the miss, is proven to be the answer: a grazing one could be certain */
-  double t;       /* lost, later: the proven root's; else the nearest root's, or INFINITY */
+  bool sure;      /* the hit or miss is proven to be the answer: a grazing one could be certain */
+  double t;       /* lost, later: of the proven root; otherwise of the nearest root, or INFINITY */
   double u, v;    /* its place */
   uint32_t patch; /* or REFERENCE_NONE */
   double off;     /* |T - t| of the root at T, in floors */
@@ -57,7 +56,7 @@ struct truth {
   double end;
   struct truth_root *root;
   size_t count, capacity, boxes;
-  bool judged; /* an answer, which the next solver may give too, has this certificate */
+  bool judged; /* an answer has this certificate; the next solver may give the same one */
   struct hit hit;
   struct certificate certificate;
 };
@@ -67,10 +66,10 @@ struct certifier {
   struct reference *reference; /* for floors and residuals only */
   double (*boxes)[2][3];
   double size;        /* the largest coordinate of a control point */
-  struct truth truth; /* of the last ray: what several solvers answer to one ray is held to one proof */
+  struct truth truth; /* of the last ray, so that one proof judges what several solvers answer to it */
 };
 
-/* Borrows scene and reference. Aborts the running test where memory is short. */
+/* Borrows scene and reference. Aborts the running test if memory is short. */
 void certifier_create(struct certifier *certifier, const struct scene *scene, struct reference *reference);
 void certifier_destroy(struct certifier *certifier);
 

@@ -1,6 +1,5 @@
-/* Tests that go through all classes of situations.h and hostile.h, each class a cmocka test of its own. The environment
- * variable PSCN_CLASS, a name or a part of some, leaves the others out.
- */
+/* Tests that go through all classes of situations.h and hostile.h, each class as a cmocka test of its own. The
+ * environment variable PSCN_CLASS, a name or a part of some names, leaves the others out. */
 #ifndef TESTS_ACCURACY_CLASS_TESTS_H
 #define TESTS_ACCURACY_CLASS_TESTS_H
 
@@ -12,10 +11,10 @@
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 
-/* Whether PSCN_CLASS asks for the class. */
+/* Whether PSCN_CLASS selects the class. */
 bool class_wanted(const struct situation_class *class);
 
-/* What the rays are asked with: every solver, and other splits than its own; the first is the default. */
+/* How rays are asked: with every solver, and with splits other than its own; the default comes first. */
 struct class_form {
   const char *solver;
   int split; /* 0: the solver's own */
@@ -23,7 +22,7 @@ struct class_form {
 enum { CLASS_FORMS = 7 };
 extern const struct class_form class_forms[CLASS_FORMS];
 
-/* A situation given to all forms; the reference is that of the first. */
+/* A situation given to all forms; they share the reference of the first. */
 struct class_trials {
   struct trial form[CLASS_FORMS];
 };
@@ -33,13 +32,13 @@ void class_trials_destroy(struct class_trials *trials);
 /* Asks the first `most` rays of the situation. */
 typedef void class_ask(const char *name, const struct situation *s, size_t most, void *context);
 
-/* Asks of `full` rays of the class, times its share, the fraction PSCN_EFFORT, but some. */
+/* Asks rays of the class: `full` times its share times PSCN_EFFORT, but at least some. */
 void class_ask_rays(const struct situation_class *class, size_t full, uint64_t seed, class_ask *ask, void *context);
 
-/* The situation's patches, as a scene has them. */
+/* Prints the situation's patches as a scene has them. */
 void class_print_patches(const struct situation *s);
 
-/* Runs `test` of every class, whose state is the const struct situation_class *, and then the others. */
+/* Runs `test` for every class, with the const struct situation_class * as its state, and then the others. */
 int class_tests_run(const char *group, CMUnitTestFunction test, const struct CMUnitTest *others, size_t other_count);
 
 #endif

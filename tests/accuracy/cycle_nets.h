@@ -1,6 +1,5 @@
-/* Closed surfaces of patches that nobody would draw: every border is met an even number of times, so that a line meets the
- * whole an even number of times, whatever the patches do between their borders.
- */
+/* Closed surfaces of patches that nobody would draw. Every border is met an even number of times, so a line meets the
+ * whole an even number of times, whatever the patches do between their borders. */
 #ifndef TESTS_ACCURACY_CYCLE_NETS_H
 #define TESTS_ACCURACY_CYCLE_NETS_H
 
@@ -16,16 +15,16 @@ struct cycle {
   double P[CYCLE_MOST][4][4][3];
 };
 
-/* What the patches are glued to, how wild they are between their borders, and how they lie in space. */
+/* How the patches are glued together, how wild they are between their borders, and how they lie in space. */
 size_t cycle_shape_count(void);
 const char *cycle_shape_name(size_t shape);
 
-/* Whether control points may be moved by rounding, equal ones alike, and it is closed still: not where a corner lies within
- * a border of another patch. */
+/* Whether the surface stays closed when rounding moves control points, equal ones alike. It does not where a corner
+ * lies within a border of another patch. */
 bool cycle_shape_moves(size_t shape);
 
-/* Coordinates are some units, or 10^-15 to 10^6 of that along an axis, and shifted. Which way u and v run on a patch is
- * random. */
+/* Coordinates are of some units, or 10^-15 to 10^6 of that along an axis, and shifted. The directions of u and v on a
+ * patch are random. */
 void cycle_make(size_t shape, struct random *random, struct cycle *out);
 
 #endif

@@ -13,14 +13,15 @@ struct cycle_scene {
   struct scene_object object;
   struct intersector *intersector;
   struct tracer *tracer;
-  double middle[3], size; /* all control points are nearer to the middle than size */
+  double middle[3], size; /* all control points are closer than size to the middle */
 };
 
-/* One surface; each of its patches with a solver and a split of its own, or all with the default. */
+/* One surface. Each patch has a solver and a split of its own, or all have the default. */
 void cycle_scene_create(size_t shape, struct random *random, struct cycle_scene *out);
 
-/* Many of one surface, turned, skew, long and short, crossing each other: so many patches that copies share their leaves,
- * if they are declared to be `copied`, or that neither patches nor leaves are kept. The shape must move. */
+/* Many instances of one surface, turned, skew, long and short, crossing each other. There are so many patches that
+ * copies share their leaves, if they are declared as `copied`, or else that neither patches nor leaves are kept. The
+ * shape must be one that moves. */
 void cycle_crowd_create(size_t shape, bool copied, struct random *random, struct cycle_scene *out);
 
 void cycle_scene_destroy(struct cycle_scene *scene);

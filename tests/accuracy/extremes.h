@@ -1,6 +1,5 @@
-/* Generators of situations at the ends of what double holds: sizes of one patch many decades apart, starts so far away
- * that a rounding moves the ray by many patches. See hostile.h.
- */
+/* Generators of situations at the limits of double: sizes of one patch many decades apart, starts so far away that a
+ * rounding moves the ray by many patches. See hostile.h. */
 #ifndef TESTS_ACCURACY_EXTREMES_H
 #define TESTS_ACCURACY_EXTREMES_H
 

@@ -1,5 +1,4 @@
-/* Pieces that the generators of situations share.
- */
+/* Pieces shared by the generators of situations. */
 #ifndef TESTS_ACCURACY_GENERATE_H
 #define TESTS_ACCURACY_GENERATE_H
 
@@ -21,7 +20,7 @@ static inline void gentle(struct random *random, double height, double P[4][4][3
   }
 }
 
-/* origin may be the ray's own. */
+/* `origin` may be the ray's own. */
 static inline void ray_between(const double origin[3], const double target[3], struct ray *ray)
 {
   for (int axis = 0; axis < 3; axis++) {
@@ -56,7 +55,7 @@ static inline void random_direction(struct random *random, double out[3])
   if (out[0] == 0 && out[1] == 0 && out[2] == 0) out[0] = 1;
 }
 
-/* 10^-k, k counting with the index. */
+/* 10^-k, where k counts with the index. */
 static inline double decade(size_t index, int first, int last)
 {
   return pow(10, -(double)(first + (int)(index % (size_t)(last - first + 1))));

@@ -1,5 +1,4 @@
-/* Which instruction set a tracer uses: for tests that compare them.
- */
+/* Chooses the instruction set that a tracer uses, for tests that compare them. */
 #ifndef TESTS_ACCURACY_KERNEL_CHOICE_H
 #define TESTS_ACCURACY_KERNEL_CHOICE_H
 
@@ -7,10 +6,10 @@
 
 #include "intersect/intersect.h"
 
-/* How many this processor can run; the last is the plainest. */
+/* How many sets this processor can run; the last is the plainest. */
 size_t kernel_choices(void);
 
-/* From now on the tracer uses number `index`, whose name is returned. */
+/* Makes the tracer use number `index` from now on. Returns its name. */
 const char *kernel_choose(struct tracer *tracer, size_t index);
 
 #endif

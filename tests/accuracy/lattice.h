@@ -1,7 +1,6 @@
-/* A generator of situations where everything that can coincide does: control points, origins and directions are small
- * whole numbers, so that rays meet corners and borders exactly, touch, and lie in surfaces, several at once. See
- * hostile.h.
- */
+/* A generator of situations where everything that can coincide does. Control points, origins and directions are small
+ * whole numbers, so rays meet corners and borders exactly, touch surfaces, and lie in them, several at once. See
+ * hostile.h. */
 #ifndef TESTS_ACCURACY_LATTICE_H
 #define TESTS_ACCURACY_LATTICE_H
 

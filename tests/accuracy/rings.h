@@ -1,6 +1,5 @@
-/* Generators of situations with rays round what is special about a surface, of every radius from 1e-18 to 1, and the pieces
- * that they share with others of hostile.h.
- */
+/* Generators of situations with rays round every special feature of a surface, of every radius from 1e-18 to 1, and the
+ * pieces that they share with others of hostile.h. */
 #ifndef TESTS_ACCURACY_RINGS_H
 #define TESTS_ACCURACY_RINGS_H
 
@@ -11,16 +10,16 @@
 /* How large patch 0 is. */
 double situation_size(const struct situation *s);
 
-/* 1e-18 ... 1 of `size`, now and then 0. */
+/* 1e-18 ... 1 of `size`, and sometimes 0. */
 double ring_radius(struct random *random, double size);
 
-/* A ray in any direction through a point at the distance `off` from `at`, that starts before it. */
+/* A ray in any direction that passes `at` at the distance `off`, and starts before it. */
 void ray_round(struct random *random, const double at[3], double off, double size, struct ray *ray);
 
-/* The patches become a closed model, as it is, or turned, or with the point at (u,v) of patch 0 moved to the middle. */
+/* The patches become a closed model: as made, or turned, or with the point at (u,v) of patch 0 moved to the middle. */
 void place_body(struct random *random, size_t index, double u, double v, struct situation *s);
 
-/* The same of one with poles: the row u = 0 of patch 0 is one. */
+/* As place_body, with a model that has poles: the row u = 0 of patch 0 is one. */
 void place_pole(struct random *random, size_t index, struct situation *s);
 
 /* ---- generators ---- */

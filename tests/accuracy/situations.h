@@ -1,5 +1,4 @@
-/* Where methods fail: one named class each, as a seeded generator of patches and rays.
- */
+/* Situations in which methods fail, in named classes. Each class is a seeded generator of patches and rays. */
 #ifndef TESTS_ACCURACY_SITUATIONS_H
 #define TESTS_ACCURACY_SITUATIONS_H
 
@@ -22,8 +21,8 @@ struct situation {
 struct situation_class {
   const char *name;
   uint64_t seed; /* to start `random` with */
-  double share;  /* in (0,1], of the rays to try: the reference takes longest where it is left undecided */
-  /* Writes situation number `index` of a sequence: index chooses sizes and kinds, random the rest. */
+  double share;  /* in (0,1], of the rays to try: the reference takes longest on rays that it leaves undecided */
+  /* Writes situation number `index` of a sequence. `index` chooses sizes and kinds, `random` the rest. */
   void (*generate)(struct random *random, size_t index, struct situation *out);
 };
 

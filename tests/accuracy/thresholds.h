@@ -1,6 +1,5 @@
-/* Generators of situations on both sides of what decides how the intersector goes about a patch or a ray: lengths of directions,
- * degrees, leaves, sizes within one scene. See hostile.h.
- */
+/* Generators of situations on both sides of each threshold by which the intersector chooses how to treat a patch or a
+ * ray: lengths of directions, degrees, leaves, sizes within one scene. See hostile.h. */
 #ifndef TESTS_ACCURACY_THRESHOLDS_H
 #define TESTS_ACCURACY_THRESHOLDS_H
 
@@ -14,8 +13,8 @@ void threshold_scaled_lattice(struct random *random, size_t index, struct situat
 void threshold_large_and_small(struct random *random, size_t index, struct situation *s);
 void threshold_cycles(struct random *random, size_t index, struct situation *s); /* of cycle_nets.h */
 
-/* A ray through a point of the patch or next to it by up to `size`, exactly at a corner or border or anywhere, from about
- * `size` away. */
+/* A ray through a point of the patch or up to `size` beside it, from about `size` away. The point is exactly at a
+ * corner or border, or anywhere. */
 void threshold_aim(struct random *random, const double P[4][4][3], double size, struct ray *ray);
 
 #endif
