@@ -1,7 +1,7 @@
-/* All hits against all roots: every list of hits, of all classes of situations.h and hostile.h, with every solver and
- * with whole patches, beside what the exact judge finds on each patch (exact.h). A certain list has a hit for each root
- * inside a patch, and one at each point of a border; a hit that is certain is a root, in any list. Prints for each class
- * and solver the counts, and the share of lists that are grazing though the judge has no doubt. */
+/* Proves that all hits are all roots. For all classes of situations.h and hostile.h, with every solver and with whole
+ * patches, each list of hits is compared with what the exact judge finds on each patch (exact.h). A certain list has a
+ * hit for each root inside a patch, and one at each point of a border; a certain hit is a root, in any list. Prints for
+ * each class and solver the counts, and the share of lists that are grazing although the judge has no doubt. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,8 +15,8 @@
 
 enum { FULL_RAYS = 20000, MOST_SHOWN = 6, MOST_ROOTS = 512 };
 
-/* How far off t of a hit may be, in floors; next to a tangency they are of the first order only, and roots that lie
- * nearer than that are told apart by their order. */
+/* The allowed error of a hit's t, in floors. Next to a tangency floors are only of the first order; roots nearer to
+ * each other than this are told apart by their order. */
 #define SAME_FLOORS 16
 
 struct truth {
@@ -37,11 +37,11 @@ static const char *const finding_names[FINDINGS] = {"right",    "undecided",    
 
 struct count {
   size_t rays, answers[2][FINDINGS]; /* certain, grazing */
-  size_t roots, sure;                /* sure: grazing though the judge has no doubt, nor any root on a border */
+  size_t roots, sure;                /* sure: grazing although the judge has no doubt, and no root is on a border */
 };
 
-/* Of a root's parameter, the nearest double to it. What 113 bits cannot tell from a border is a hit on it, of the first of
- * the patches that share it, though it may be in the other one. */
+/* The parameter is the nearest double to a root's. A root that 113 bits cannot tell from a border counts as a hit on
+ * it, of the first of the patches that share it, although it may be in the other one. */
 #define AT_BORDER 0x1p-90
 
 static bool on_border(double parameter) { return parameter <= AT_BORDER || parameter >= 1; }
@@ -65,8 +65,8 @@ static void find_truths(const struct trial *trial, const struct ray *ray, struct
   }
 }
 
-/* The root that a hit is: of its patch, or on a border as it is, not met yet, the nearest. NULL where none is near
- * enough. */
+/* The root that a hit is: the nearest one not met yet, of the hit's patch, or on a border if the hit is. NULL if none
+ * is near enough. */
 static struct truth *root_of(struct truths *truths, const struct hit *hit)
 {
   struct truth *best = NULL;
@@ -76,7 +76,7 @@ static struct truth *root_of(struct truths *truths, const struct hit *hit)
     struct truth *r = &truths->root[k];
     const double off = fabs(r->t - hit->t) / r->floor;
     if (r->met || !(off <= SAME_FLOORS) || (r->patch != hit->patch && !(border && r->border))) continue;
-    /* Of two that t cannot tell apart the one whose parameters are nearer. */
+    /* Of two that t cannot tell apart, takes the one whose parameters are nearer. */
     const double aside = r->patch != hit->patch ? 1 : fmax(fabs(r->u - hit->u), fabs(r->v - hit->v));
     if (aside < least) best = r, least = aside;
   }

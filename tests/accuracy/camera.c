@@ -1,6 +1,6 @@
-/* Camera rays of the shipped scenes, each pixel's answer judged by the reference: the teapot at 800x600, the others
- * smaller. PSCN_EFFORT=full takes every pixel, otherwise a seeded choice. And the command `pscn trace`: its text is
- * the same answers. */
+/* Proves that camera rays of the shipped scenes are answered as the reference answers them: the teapot at 800x600, the
+ * others smaller. PSCN_EFFORT=full takes every pixel, otherwise a seeded choice. Also proves that the text of `pscn
+ * trace` gives the same answers. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +24,7 @@ static const struct view views[] = {
 };
 enum { VIEWS = sizeof views / sizeof views[0], COMMAND_RAYS = 2000 };
 
-/* What a picture may have of each. */
+/* The limits for each picture. */
 #define T_RELATIVE_MEDIAN 1e-15
 #define CERTAIN_SHARE 0.9999
 
@@ -35,7 +35,7 @@ static struct scene *load(const struct view *view)
   return scene;
 }
 
-/* The ray of pixel number `index`, through its middle. */
+/* The ray through the middle of pixel number `index`. */
 static void pixel_ray(const struct scene *scene, const struct view *view, size_t index, struct ray *ray)
 {
   const size_t width = (size_t)view->width;
@@ -77,8 +77,8 @@ static void test_view(void **state)
   scene_destroy(scene);
 }
 
-/* One line of `pscn trace` against the answer in memory. 17 digits give every double back, so all but T, which is
- * scaled by the direction's length, is the same bit for bit. */
+/* Compares a line of `pscn trace` with the answer in memory. 17 digits restore every double, so everything is the same
+ * bit for bit, except T, which is scaled by the direction's length. */
 static void compare_line(const char *line, const struct ray *ray, const struct hit *hit)
 {
   if (hit->patch == HIT_NONE) {

@@ -1,8 +1,13 @@
-/* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
- * ray, `from: T` where it begins there and `to: T` where it ends, `certain: yes` where the answer must be that too, or `no`
- * where it must not, `t: T` and `uv: U V` where it must be there, to the last places, `patch: N` where it must be that
- * patch, `all: N` where there must be N hits in all, certainly, and `facing: X Y Z` where the normal must be on that side; judged by the exact judge. Every file is a scene that
- * pscn and POV-Ray read. */
+/* Proves that rays which were once answered wrongly stay right. Each is a scene of tests/accuracy/cases that pscn and
+ * POV-Ray read. The exact judge judges the answer. The first lines of the scene give the fault, the solver and the ray,
+ * and
+ *   from: T         where the ray begins, if not at its origin
+ *   to: T           where it ends
+ *   certain: yes    the answer must be certain; `no`: it must not be
+ *   t: T  uv: U V   where the hit must be, to the last places
+ *   patch: N        the patch that it must be on
+ *   all: N          there must be N hits in all, certainly
+ *   facing: X Y Z   the side on which the normal must be */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +26,7 @@ enum { LINE_SIZE = 512 };
 
 #define OFF 0x1p-50 /* relative: a unit in the last place or two */
 
-/* The line that starts with `// KEY: `; its rest, or "". */
+/* The rest of the line that starts with `// KEY: `, or "". */
 static void header(const char *path, const char *key, char out[LINE_SIZE])
 {
   char line[LINE_SIZE], start[32];
@@ -35,7 +40,7 @@ static void header(const char *path, const char *key, char out[LINE_SIZE])
   out[strcspn(out, "\n")] = 0;
 }
 
-/* Whether the numbers of `text`, if any, are these. */
+/* Whether the numbers in `text`, if any, are these. */
 static bool numbers_are(const char *text, size_t count, const double x[])
 {
   char *rest;
@@ -44,14 +49,15 @@ static bool numbers_are(const char *text, size_t count, const double x[])
   return true;
 }
 
-/* Whether the normal is on the side of the vector in `text`, if any. */
+/* Whether the normal is on the side of the vector in `text`, if there is one. */
 static bool faces(const char *text, const double normal[3])
 {
   double side[3] = {0};
   return !text[0] || (sscanf(text, "%lf %lf %lf", &side[0], &side[1], &side[2]) == 3 && vector_dot(side, normal) > 0);
 }
 
-/* Of all hits as many as in `count`, if any; where they are certain the first of them is the nearest. */
+/* Whether there are as many hits in all as `count` says, if it does; if they are certain, the first must be the
+ * nearest. */
 static bool all_good(struct tracer *tracer, const struct ray *ray, const struct hit *nearest, const char *count)
 {
   struct hit_list list;

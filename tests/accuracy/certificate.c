@@ -14,30 +14,31 @@
  * some. */
 #define GRAZING_NEAR (4 * TRIAL_NEAR)
 
-/* A grazing answer may overlook a root this near to an end of the ray, relative to the same or the patch's extent. */
+/* A grazing answer may overlook a root this near to an end of the ray, relative to the largest coordinate or the
+ * patch's extent. */
 #define AT_END 0x1p-46
 
-/* The square of a normal's length is 1 but for some roundings. */
+/* The square of a normal's length is 1 up to some roundings. */
 #define UNIT_NORMAL 0x1p-48
 
-/* How far U and V of a certain hit may be off, in floors. */
+/* The allowed error of U and V of a certain hit, in floors. */
 #define PLACE_FLOORS 16
 
-/* How far from the ray, as a line, the place of a certain hit may be, in roundings of the patch's extent: those of U and V
- * move it by no more than 3 each. */
+/* How far the place of a certain hit may be from the ray, as a line, in roundings of the patch's extent. Those of U and
+ * V move it by at most 3 each. */
 #define LINE_ROUNDINGS 16
 
-/* A patch smaller than this, or than this part of the scene, has the digits of one that is so large. */
+/* A patch smaller than this, or than this part of the scene, is judged as if it were that large. */
 #define LEAST_PATCH 0x1p-1000
 #define LEAST_PART 0x1p-100
 
-/* Roots are looked for this much farther than a hit, relative: the next solver's hit may differ in its last places. */
+/* Roots are sought this much farther than a hit, relative: the next solver's hit may differ in its last places. */
 #define SPARE 0x1p-20
 
 /* A hit this near to a root, in U, V and relative T, has the root's floor. */
 #define SAME_PLACE 0x1p-40
 
-/* However ill-conditioned a certain hit is, T is right to this share. */
+/* However ill-conditioned a certain hit is, T is right within this fraction. */
 #define MOST_ALLOWED 0x1p-10
 
 const char *const finding_names[FINDINGS] = {"proven", "undecided", "lost", "later", "invented", "bad surface"};
@@ -62,8 +63,8 @@ void certifier_create(struct certifier *certifier, const struct scene *scene, st
 
 void certifier_destroy(struct certifier *certifier) { free(certifier->boxes), free(certifier->truth.root); }
 
-/* False only where the line surely passes the box by: in the plane of any two axes the corners lie all on one side,
- * by more than 8 roundings. */
+/* False only if the line certainly misses the box: in the plane of any two axes all corners lie on one side, by more
+ * than 8 roundings. */
 static bool may_meet(const double box[2][3], const struct ray *ray)
 {
   for (int k = 0; k < 3; k++) {
@@ -109,7 +110,7 @@ static bool same_ray(const struct ray *a, const struct ray *b)
          a->t_min == b->t_min && a->t_max == b->t_max;
 }
 
-/* All roots of the ray up to `end` at least: those that are known, or found now, to somewhat more than that. */
+/* Provides all roots of the ray up to `end` at least: the known ones, or new ones up to somewhat beyond that. */
 static void find_truth(struct certifier *certifier, const struct ray *ray, double end)
 {
   struct truth *truth = &certifier->truth;
@@ -143,19 +144,19 @@ struct judging {
   const struct ray *ray;
   const struct hit *hit;
   struct certificate *out;
-  double allowed;                 /* what T may be off by, at the answer's own place */
-  struct truth_root *at, *before; /* the root at T, of several the one next to U and V; the first before it; or NULL */
-  double aside;                   /* how far U and V are from those of the root at T, on the same patch */
+  double allowed;                 /* the allowed error of T, at the answer's own place */
+  struct truth_root *at, *before; /* the root at T (if several, the one next to U, V); the first before it; or NULL */
+  double aside;                   /* how far U and V are from those of the root at T on the same patch */
   bool doubt_at, doubt_before;
 };
 
-/* t of the root less T, to all digits: the difference of the leading parts is exact where they are next to each other. */
+/* t of the root minus T, to all digits: the difference of the leading parts is exact if they are next to each other. */
 static double t_off(const struct judging *j, const struct truth_root *root)
 {
   return root->at.t - j->hit->t + root->at.t_rest;
 }
 
-/* The floor at the hit: that of the root which is there, or its own. */
+/* The floor at the hit: that of the root there, or its own. */
 static double floor_at_hit(const struct judging *j)
 {
   const struct hit *hit = j->hit;
@@ -169,7 +170,7 @@ static double floor_at_hit(const struct judging *j)
   return trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, hit->u, hit->v).t;
 }
 
-/* Whether a root is too near to an end of the ray to be told from it, by what roundings of the input move either. */
+/* Whether a root is so near to an end of the ray that roundings of the input could move it across. */
 static bool at_an_end(const struct judging *j, struct truth_root *root)
 {
   const double length = facts_length(j->ray->direction), t = root->at.t;
@@ -178,7 +179,7 @@ static bool at_an_end(const struct judging *j, struct truth_root *root)
   return t - j->ray->t_min <= fmax(near, moved) || j->ray->t_max - t <= fmax(near, moved);
 }
 
-/* What a root means to a hit. */
+/* Judges a hit by one root. */
 static void judge_root(struct judging *j, struct truth_root *root)
 {
   const double off_t = t_off(j, root);
@@ -205,7 +206,7 @@ static void tell_root(struct judging *j, struct truth_root *root)
   if (j->hit->patch != HIT_NONE) out->off = fabs(t_off(j, root)) / floor_of(j->certifier, root)->t;
 }
 
-/* Where there is no root at T: the nearest one there is. */
+/* Notes the nearest root, if there is none at T. */
 static void nearest_root(struct judging *j)
 {
   struct truth_root *nearest = NULL;
@@ -222,7 +223,7 @@ static void judge_hit(struct judging *j)
   const struct hit *hit = j->hit;
   const bool certain = hit->certainty == CERTAINTY_CERTAIN;
   const double length = facts_length(j->ray->direction);
-  double size = length * trial_size(j->ray, hit->t); /* the patch's included */
+  double size = length * trial_size(j->ray, hit->t); /* includes the patch's */
   for (int k = 0; k < 6; k++) size = fmax(size, fabs(j->certifier->boxes[hit->patch][k / 3][k % 3]));
   const double near = TRIAL_NEAR * size / length;
   const double floor = floor_at_hit(j);
@@ -284,7 +285,7 @@ static void surface_of(const struct judging *j, wide u, wide v, wide out[3])
   }
 }
 
-/* How large the patch counts as. */
+/* The size that the patch is judged by. */
 static double counted_extent(const struct judging *j)
 {
   const double least = fmax(LEAST_PATCH, LEAST_PART * j->certifier->size);
@@ -293,7 +294,8 @@ static double counted_extent(const struct judging *j)
 
 static bool at_border(double u, double v) { return fmin(u, v) <= SAME_PLACE || fmax(u, v) >= 1 - SAME_PLACE; }
 
-/* Whether the hit's place is another one of the same point: where two borders of the patch meet, or a border is one point. */
+/* Whether the hit's place is another one of the root's point: two borders of the patch meet there, or a border is one
+ * point. */
 static bool across_seam(const struct judging *j)
 {
   const struct hit *hit = j->hit;
@@ -306,8 +308,8 @@ static bool across_seam(const struct judging *j)
   return off <= LINE_ROUNDINGS * DOUBLE_UNIT * counted_extent(j);
 }
 
-/* Whether U and V of a certain hit are those of the root at T, where that is of the same patch; near, for the floors are of
- * the first order. */
+/* Whether U and V of a certain hit are near those of the root at T, if that is on the same patch. They need only be
+ * near, because floors are of the first order. */
 static bool place_good(const struct judging *j)
 {
   const struct hit *hit = j->hit;
@@ -318,7 +320,7 @@ static bool place_good(const struct judging *j)
   return !off || across_seam(j);
 }
 
-/* How far the hit's point is from it. */
+/* How far the hit's point is from S(U,V). */
 static double off_surface(const struct judging *j, const wide at[3])
 {
   double off[3];
@@ -326,26 +328,26 @@ static double off_surface(const struct judging *j, const wide at[3])
   return facts_length(off);
 }
 
-/* The largest coordinate of (S(U,V) - origin) x direction/|direction|: how far the hit's place is from the ray, as a
- * line. */
+/* The largest coordinate of (S(U,V) - origin) x direction/|direction|: the distance of the hit's place from the ray as
+ * a line. */
 static double off_line(const struct judging *j, const wide at[3])
 {
   const double *o = j->ray->origin, *d = j->ray->direction;
   double most = 0, longest = fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2]));
   for (int i = 0, k = 1; i < 3; i++, k = (i + 1) % 3) {
-    const wide line = (wide)o[i] * d[k] - (wide)o[k] * d[i]; /* of exact products: a far start loses nothing */
+    const wide line = (wide)o[i] * d[k] - (wide)o[k] * d[i]; /* exact products: a far start loses nothing */
     most = fmax(most, fabs((double)((at[i] * d[k] - at[k] * d[i] - line) / longest)));
   }
   return most;
 }
 
-/* Whether a certain hit's place is on the ray, but for what the rounding of U and V moves it. */
+/* Whether a certain hit's place is on the ray, up to what the rounding of U and V moves it. */
 static bool line_good(const struct judging *j, const wide at[3])
 {
   return j->hit->certainty == CERTAINTY_GRAZING || off_line(j, at) <= LINE_ROUNDINGS * DOUBLE_UNIT * counted_extent(j);
 }
 
-/* What a hit says of the surface, but for its place on the ray. */
+/* Whether what a hit says of the surface is right; its place on the ray is judged elsewhere. */
 static bool surface_good(const struct judging *j)
 {
   const struct hit *hit = j->hit;

@@ -1,6 +1,7 @@
-/* Every answer proven or refuted by the exact judge: all classes of situations.h and hostile.h, each ray in several ways,
- * with every solver and several splits, held to one proof. Nothing may be refuted, whatever the answer called itself. Prints
- * for each class and solver the counts by verdict, and the slowest ray. */
+/* Proves that no answer is wrong. The exact judge proves or refutes every answer to all classes of situations.h and
+ * hostile.h: each ray in several ways, with every solver and several splits, all judged by one proof. None may be
+ * refuted, whether it is called certain or grazing. Prints for each class and solver the counts by verdict, and the
+ * slowest ray. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,13 +19,13 @@
 #include "effort.h"
 #include "random.h"
 
-/* No ray of any scene may take longer, in seconds. Timing decides no test; it is printed. */
+/* A ray that takes longer, in seconds, is counted and printed as slow. Timing decides no test. */
 #define SLOW 2e-3
 
-/* So many rays, with 7 forms and in 4 ways, make a million answers. */
+/* This many rays, with 7 forms and in 4 ways, make a million answers. */
 enum { FULL_RAYS = 36000, FULL_SITUATIONS = 5, MOST_SHOWN = 6 };
 
-/* So many crowds of each kind, and packets at each. */
+/* The number of crowds of each kind, and of packets at each. */
 static const size_t FULL_CROWDS[] = {2000, 200};
 enum { FIRST_CROWD = 740, CROWD_PACKETS = 32 };
 
@@ -32,8 +33,8 @@ enum verdict { CERTAIN_HIT, CERTAIN_MISS, GRAZING_HIT, GRAZING_MISS, VERDICTS };
 
 struct count {
   size_t answers[VERDICTS][FINDINGS];
-  size_t grazing_sure; /* grazing though the judge proves the answer */
-  size_t company;      /* answered otherwise in a packet than alone, or asked for any hit */
+  size_t grazing_sure; /* grazing although the judge proves the answer */
+  size_t company;      /* answered differently in a packet than alone, or when asked for any hit */
   size_t slow;         /* above SLOW */
   double slowest;      /* seconds */
 };
@@ -43,7 +44,7 @@ struct asking {
   struct count counts[CLASS_FORMS];
 };
 
-/* With PSCN_SHOW set everything is shown, and the scene too. */
+/* With PSCN_SHOW set, shows everything, and the scene too. */
 static void show(const char *name, const struct class_form *form, const struct situation *s, const struct ray *ray,
                  const struct hit *hit, const char *what)
 {
@@ -67,7 +68,7 @@ static void show_refuted(const char *name, const struct class_form *form, const 
   show(name, form, s, ray, hit, finding_names[c->finding]);
 }
 
-/* Traces the ray, twice where the first time is long: the machine may have been busy. */
+/* Traces the ray, and again if that took long: the machine may have been busy. */
 static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
 {
   double least = INFINITY;
@@ -79,7 +80,7 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
   return least;
 }
 
-/* Whether the answer in a packet is as good as the one alone: of one verdict, and where last places differ proven as
+/* Whether the answer in a packet is as good as the one alone: of the same verdict and, if last places differ, proven as
  * well. */
 static bool fits(const struct hit *alone, const struct hit *packed, struct certifier *certifier, const struct ray *ray)
 {
@@ -108,8 +109,8 @@ static void tally(const char *name, const struct class_form *form, const struct 
   if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, form, s, ray, hit, &certificate);
 }
 
-/* A ray asked alone has to be answered as it was among the situation's other rays: a packet's lanes do what they do on a
- * picture, alone a ray goes another way. */
+/* Checks that a ray asked alone is answered as among the situation's other rays. A packet's lanes do what they do for a
+ * picture; a ray alone takes another path. */
 static void ask_alone(const char *name, const struct class_form *form, const struct situation *s, struct trial *trial,
                       struct certifier *certifier, const struct ray *ray, const struct hit *packed, struct count *count)
 {
@@ -120,8 +121,8 @@ static void ask_alone(const char *name, const struct class_form *form, const str
   if (time > SLOW && getenv("PSCN_SHOW")) show(name, form, s, ray, &hit, "slow");
 }
 
-/* The ways a ray of a class is asked: as it is; from beyond what it hits, back; ending and starting there, but for a
- * difference of 2^-20 to 2^-53 or none. Of a miss the generators' target, t = 1, stands for it. */
+/* The ways to ask a ray of a class: as it is; back from beyond its hit; ending or starting at the hit, exactly or off
+ * by 2^-20 to 2^-53. For a miss the generators' target, t = 1, replaces the hit. */
 enum way { AS_IT_IS, BACK, ENDING, STARTING, WAYS };
 
 static struct ray ray_of_way(const struct ray *ray, const struct hit *hit, enum way way, struct random *random)
@@ -139,7 +140,7 @@ static struct ray ray_of_way(const struct ray *ray, const struct hit *hit, enum 
   return out;
 }
 
-/* Whether a ray that ends asked for any hit is answered as what is certain of its nearest one. */
+/* Checks that a ray with an end, asked for any hit, is answered as its nearest hit says if that is certain. */
 static void ask_shadows(const char *name, const struct class_form *form, const struct situation *s, struct trial *trial,
                         const struct ray *rays, size_t most, const struct hit *hits, struct count *count)
 {
@@ -181,7 +182,7 @@ static void ask(const char *name, const struct situation *s, size_t most, void *
   class_trials_destroy(&trials);
 }
 
-/* Of answers from one verdict to another, those with findings from one to another. */
+/* The number of answers in a range of verdicts with findings in a range. */
 static size_t sum(const struct count *c, int verdict, int last_verdict, int finding, int last_finding)
 {
   size_t all = 0;
@@ -229,7 +230,7 @@ static void test_class(void **state)
   if (!class_told_only(class)) assert_int_equal(bad, 0);
 }
 
-/* Rays at one of a crowd. */
+/* Asks rays at one crowd. */
 static void ask_crowd(const char *name, bool copied, struct random *random, struct count *count)
 {
   struct cycle_scene crowd;
@@ -256,14 +257,14 @@ static void ask_crowd(const char *name, bool copied, struct random *random, stru
   cycle_scene_destroy(&crowd);
 }
 
-/* Crowds of copies, which share their leaves, and scenes so large that no leaves are kept: the same of rays at one of them. */
+/* The same proof for crowds: copies, which share their leaves, and scenes so large that no leaves are kept. */
 static void test_crowds(void **state)
 {
   (void)state;
   static const char *const names[] = {"copies of one object", "leaves made for each ray"};
   for (int kind = 0; kind < 2; kind++) {
     const uint64_t seed = effort_seed(FIRST_CROWD + (uint64_t)kind);
-    const size_t wanted = effort_count(FULL_CROWDS[kind], kind == 0); /* of the large ones none in a quick run */
+    const size_t wanted = effort_count(FULL_CROWDS[kind], kind == 0); /* a quick run makes none of the large ones */
     struct random random = {.state = seed};
     struct count count = {.slow = 0};
     if (getenv("PSCN_CLASS") && !strstr(names[kind], getenv("PSCN_CLASS"))) continue;
@@ -274,7 +275,7 @@ static void test_crowds(void **state)
   exact_cleanup();
 }
 
-/* What the reference says, as an answer. */
+/* The reference's statement as an answer. */
 static struct hit hit_of(const struct reference_answer *truth)
 {
   struct hit hit = {.patch = HIT_NONE, .certainty = CERTAINTY_CERTAIN};
@@ -285,7 +286,7 @@ static struct hit hit_of(const struct reference_answer *truth)
   return hit;
 }
 
-/* From so far away, in sizes of the patch, the reference's 113 bits do not tell U and V to a double's. */
+/* From this far away, in sizes of the patch, the reference's 113 bits do not give U and V to a double's precision. */
 #define FAR 0x1p48
 
 static bool is_far(const struct certifier *certifier, const struct ray *ray, const struct hit *hit)
@@ -297,11 +298,12 @@ static bool is_far(const struct certifier *certifier, const struct ray *ray, con
   return way > FAR * extent;
 }
 
-/* What is asked of the judge about a ray: what the reference says, and answers that are wrong. */
+/* What the judge is asked to judge: the reference's answer, and wrong ones. */
 enum wrong { RIGHT, NEARER, FARTHER, DENIED, MADE_UP, WRONGS };
 static const char *const wrong_names[WRONGS] = {"the reference's", "nearer", "farther", "denied", "made up"};
 
-/* So many floors off is wrong: more than CERTIFICATE_FLOORS, for next to a tangency they change from place to place. */
+/* An answer this many floors off is wrong. More than CERTIFICATE_FLOORS, because next to a tangency floors change from
+ * place to place. */
 #define WRONG_FLOORS 16
 
 static void judge_wrong(const char *name, const struct situation *s, struct certifier *certifier, const struct ray *ray,
@@ -314,7 +316,7 @@ static void judge_wrong(const char *name, const struct situation *s, struct cert
   struct certificate c;
   if (is_far(certifier, ray, &hit)) return;
   certify(certifier, ray, &hit, &c);
-  /* To the reference a root on a border and one next to it are one, and a border is as wide as REFERENCE_BORDER. */
+  /* The reference takes a root on a border and one next to it as one, and a border is as wide as REFERENCE_BORDER. */
   if (c.finding == FINDING_LATER && hit.t - c.t <= REFERENCE_SAME_POINT * hit.t) return;
   if (c.finding > FINDING_UNDECIDED && truth.shared) return;
   found[RIGHT][c.finding]++;
@@ -339,7 +341,7 @@ static void judge_wrong(const char *name, const struct situation *s, struct cert
   found[DENIED][c.finding]++;
 }
 
-/* The two judges agree on what either decides, and the exact one refutes what is wrong. */
+/* Proves that the two judges agree on what either decides, and that the exact one refutes wrong answers. */
 static void test_judges(void **state)
 {
   (void)state;
@@ -368,7 +370,7 @@ static void test_judges(void **state)
   }
   for (int k = FINDING_UNDECIDED + 1; k < FINDINGS; k++) assert_int_equal(found[RIGHT][k], 0);
   assert_int_equal(found[NEARER][FINDING_PROVEN] + found[DENIED][FINDING_PROVEN] + found[MADE_UP][FINDING_PROVEN], 0);
-  /* Of coincident patches the other one may be there, and in some classes most coincide. */
+  /* If patches coincide, the root of the other one may be there; in some classes most patches coincide. */
   if (!getenv("PSCN_CLASS")) assert_true(found[FARTHER][FINDING_PROVEN] * 50 <= found[FARTHER][FINDING_LATER]);
 }
 

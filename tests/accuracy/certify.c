@@ -1,8 +1,7 @@
-/* Checks the answers of a scene: rays on stdin, `ox oy oz dx dy dz` a line; every refuted answer on stdout, then the
- * counts. For hunting by hand.
+/* Checks the answers of a scene, for hunting by hand. Reads rays from stdin, one `ox oy oz dx dy dz` a line; prints
+ * every refuted answer, then the counts.
  *
- *   certify SCENE [SOLVER] [--all] < rays
- */
+ *   certify SCENE [SOLVER] [--all] < rays */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

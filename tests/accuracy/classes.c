@@ -1,9 +1,9 @@
-/* The situations where methods fail, with the default solver, judged by the reference.
+/* Proves that the default solver is right where methods fail: the situations of situations.h, judged by the reference.
  *
- * What is asked in every class: no proven hit lost, none invented, T, U, V within their floors. Classes whose rays are
- * degenerate by design (a curve in common, a collapsed edge met exactly) leave the reference undecided for many; there
- * the answer must not pass a proven hit nor come before the first possible one. And every hit has a normal where its
- * surface has one, at a collapsed pole too. */
+ * In every class no proven hit may be lost, none invented, and T, U, V must be within their floors. In classes whose
+ * rays are degenerate by design (a curve in common, a collapsed edge met exactly) the reference leaves many rays
+ * undecided. There the answer must not pass a proven hit, nor come before the first possible one. Every hit has a
+ * normal where its surface has one, at a collapsed pole too. */
 #include <math.h>
 #include <stdio.h>
 
@@ -37,19 +37,19 @@ static void test_class(void **state)
   tally_free(&tally);
 }
 
-/* The limit normal at a collapsed pole may be off by this: directions of control points are rounded when a model is
- * placed at up to POLE_SHIFT times its size, so 2^-53 POLE_SHIFT over the distance of the points next to the pole,
- * and some of those. */
+/* The allowed error of the limit normal at a collapsed pole. Directions of control points are rounded when a model is
+ * placed at up to POLE_SHIFT times its size. So the error is some times 2^-53 POLE_SHIFT over the distance of the
+ * points next to the pole. */
 #define POLE_SHIFT 10
 #define POLE_NORMAL (64 * POLE_SHIFT * DOUBLE_UNIT)
 
-/* A pole met exactly is left to subdivision, which ends at boxes of some 1e-13; the normal turns by at most
- * POLE_TURN u on the way from the pole: 3 |P1 - P0| = 1.66 over the radius 1. */
+/* A pole met exactly is left to subdivision, which ends at boxes of some 1e-13. The normal turns by at most POLE_TURN u
+ * on the way from the pole: 3 |P1 - P0| = 1.66 over the radius 1. */
 #define POLE_PARAMETER 0x1p-40
 #define POLE_TURN 2
 
-/* Rays from inside exactly at the poles of placed balls and at the apex of placed domes. Which of the patches that meet
- * there is answered is free; the normal is the axis, facing the origin. */
+/* Rays from inside exactly at the poles of placed balls and at the apex of placed domes. The answer may be any of the
+ * patches that meet there; the normal is the axis, facing the origin. */
 static void test_poles(void **state)
 {
   (void)state;

@@ -1,12 +1,11 @@
-/* What a ray costs, by hand: one by one, in microseconds of this processor, the best of three times.
+/* Measures the cost of rays, for use by hand: one by one, in microseconds of this processor, the best of three times.
  *
  *   cost [SCENE...]
  *
- * Of every class of situations.h and hostile.h (PSCN_CLASS leaves the others out), and of rays aimed at each scene:
- * tangent at a point of a patch as well as double has it, at points of edges, at corners and poles, exactly. A line each:
- * the median, what 99 % do not reach, the worst, and how many of the answers are grazing, of the nearest hit and of all
- * hits. PSCN_EFFORT sets how many rays.
- */
+ * The rays are those of every class of situations.h and hostile.h (PSCN_CLASS leaves the others out), and rays aimed at
+ * each scene: tangent at a point of a patch as nearly as doubles allow, at points of edges, and at corners and poles,
+ * exactly. Each line gives the median, the 99th percentile, the worst, and how many answers are grazing, for the
+ * nearest hit and for all hits. PSCN_EFFORT sets the number of rays. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -44,7 +44,7 @@ static void lid(struct random *random, enum strew strew, double height, const ne
     if (k / 4 % 3 == 0 || k % 4 % 3 == 0) memcpy(P[k / 4][k % 4], base[k / 4][k % 4], sizeof P[0][0]);
 }
 
-/* The halves of a net along u, exact where the coordinates are whole numbers of few bits. */
+/* The halves of a net along u, exact if the coordinates are whole numbers of few bits. */
 static void halve(const net P, net low, net high)
 {
   for (int k = 0; k < 12; k++) {
@@ -82,7 +82,7 @@ static void pillow(struct random *random, enum strew strew, struct cycle *out)
   sheet(random, strew, 1, out->P[0]), lid(random, strew, -1, (const double(*)[4][3])out->P[0], out->P[1]);
 }
 
-/* One sheet is two, or three, halves: their corners lie within borders of others. */
+/* A pillow with one sheet in two or three parts, whose corners lie within borders of others. */
 static void tees(struct random *random, enum strew strew, struct cycle *out)
 {
   net whole, halves[2];
@@ -114,7 +114,7 @@ static void book(struct random *random, enum strew strew, struct cycle *out)
   out->count = 4;
 }
 
-/* A pillow, and a sheet that stands there twice. */
+/* A pillow, and a sheet that is there twice. */
 static void twice(struct random *random, enum strew strew, struct cycle *out)
 {
   pillow(random, strew, out);
@@ -148,7 +148,7 @@ static void gores(struct random *random, enum strew strew, struct cycle *out)
   }
 }
 
-/* One patch that closes upon itself, and whose other borders are points. */
+/* One patch that closes upon itself; its other borders are points. */
 static void bag(struct random *random, enum strew strew, struct cycle *out)
 {
   static const double across[4][2] = {{0, -1.5}, {4, 1.5}, {-4, 1.5}, {0, -1.5}};
@@ -177,7 +177,7 @@ static void box(struct random *random, enum strew strew, struct cycle *out)
     }
 }
 
-/* A pillow, and a bag or gores that are far smaller, within it. */
+/* A pillow, and within it a far smaller bag or gores. */
 static void speck(struct random *random, enum strew strew, struct cycle *out)
 {
   struct cycle small;
@@ -203,7 +203,8 @@ bool cycle_shape_moves(size_t shape) { return shapes[shape].make != tees; }
 
 /* ---- in space ---- */
 
-/* Thin along an axis, skew, turned and shifted: the same map of every point, so that equal ones stay equal. */
+/* Makes it thin along an axis, skew, turned and shifted. The map is the same for every point, so equal points stay
+ * equal. */
 static void lay(struct random *random, struct cycle *cycle)
 {
   struct placement placement;

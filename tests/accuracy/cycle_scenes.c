@@ -8,10 +8,10 @@
 #include "accuracy/generate.h"
 #include "cmocka_test.h"
 
-/* From so many patches on copies share their leaves, and none are kept. */
+/* The numbers of patches from which copies share their leaves, and from which no leaves are kept. */
 enum { COPIED = 1100, UNKEPT = 66000, SPLITS = 16 };
 
-/* How far apart the surfaces of a crowd are, in their own size. */
+/* The distance between the surfaces of a crowd, in units of their size. */
 #define APART 8
 
 static void *room(size_t count, size_t size)
@@ -21,7 +21,7 @@ static void *room(size_t count, size_t size)
   return made;
 }
 
-/* Patches, methods and objects are there. */
+/* Makes the intersector and the tracer; patches, methods and objects are there. */
 static void prepare(struct cycle_scene *out)
 {
   assert_int_equal(intersector_create(&out->scene, &out->intersector), STATUS_OK);

@@ -1,8 +1,8 @@
-/* Parity on closed surfaces that nobody would draw (cycle_nets.h): folded, self-intersecting, thin, skew, graded, of whole
- * numbers, with poles, seams, T-junctions and borders that four patches share, each patch with a solver of its own in
- * half of them. A ray that starts outside of all control points meets them an even number of times; of rays that start at
- * one point, wherever it is, either all meet them an even number of times or none does. And the nearest hit, and whether
- * there is one, are what the list of all hits says. Whatever is wrong says that it is grazing. */
+/* Proves parity on closed surfaces that nobody would draw (cycle_nets.h): folded, self-intersecting, thin, skew,
+ * graded, of whole numbers, with poles, seams, T-junctions and borders that four patches share. In half of them each
+ * patch has a solver of its own. A ray that starts outside all control points meets the surface an even number of
+ * times. Of rays that start at one point, wherever it is, either all meet it an even number of times or none does. The
+ * nearest hit, and whether there is one, agree with the list of all hits. Every wrong answer must be called grazing. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ enum {
   TESTS_MOST = 12
 };
 
-/* Nearest hit and list: the same T but for some roundings of it and of the largest coordinate. */
+/* Nearest hit and list agree in T up to some roundings of it and of the largest coordinate. */
 #define SAME_T 1e-9
 #define SAME_PLACE 0x1p-40
 
@@ -49,7 +49,7 @@ static double parameter(struct random *random)
                      : random_unit(random);
 }
 
-/* A point of a patch; its tangents, too, where `along` is given. */
+/* A point of a patch, and its tangents if `along` is given. */
 static void some_point(const struct cycle_scene *s, struct random *random, double out[3], double along[2][3])
 {
   const double(*P)[4][3] = (const double(*)[4][3])s->scene.patches[choose(random, s->scene.patch_count)].P;
@@ -60,7 +60,7 @@ static void some_point(const struct cycle_scene *s, struct random *random, doubl
 
 static double longest(const double d[3]) { return fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2])); }
 
-/* Aimed at a point from anywhere, from along its tangent plane or next to it, or along axes. */
+/* Aimed at a point: from anywhere, along its tangent plane or next to that, or along axes. */
 static void outside_ray(const struct cycle_scene *s, struct random *random, struct ray *ray)
 {
   double at[3], along[2][3], d[3];
@@ -76,7 +76,7 @@ static void outside_ray(const struct cycle_scene *s, struct random *random, stru
   for (int k = 0; k < 3; k++) ray->origin[k] = at[k] - away * d[k], ray->direction[k] = d[k];
 }
 
-/* Anywhere among the patches, or next to one; not at a corner, where it would be on the surface. */
+/* Anywhere among the patches, or next to one. Not at a corner, because that is on the surface. */
 static void inside_point(const struct cycle_scene *s, struct random *random, double out[3])
 {
   double at[3], other[3];
@@ -88,7 +88,7 @@ static void inside_point(const struct cycle_scene *s, struct random *random, dou
   } while (memcmp(out, at, sizeof at) == 0);
 }
 
-/* Whether the start is outside of all control points, by far more than roundings. */
+/* Whether the point is outside all control points, by far more than roundings. */
 static bool is_outside(const struct cycle_scene *s, const double p[3])
 {
   double off = 0;
@@ -96,7 +96,7 @@ static bool is_outside(const struct cycle_scene *s, const double p[3])
   return off > 1.5 * s->size;
 }
 
-/* A packet that starts outside, or one that starts at one point. */
+/* A packet whose rays start outside, or all at one point. */
 static bool make_rays(const struct cycle_scene *s, struct random *random, struct ray rays[PACKET_SIZE])
 {
   const bool outside = choose(random, 2);
@@ -158,7 +158,8 @@ static bool nearest_is(const struct cycle_scene *s, const struct ray *ray, const
   return same_t(s, ray, hit->t, first->t);
 }
 
-/* Part of a ray, from before a hit of its list to behind it, or to the end, where the hits are well apart; that hit. */
+/* Part of a ray, from before a hit of its list to behind it, or to the end, if the hits are well apart. Returns that
+ * hit. */
 static const struct hit *part_of(const struct cycle_scene *s, struct random *random, const struct hit_list *list,
                                  struct ray *ray)
 {
@@ -173,7 +174,7 @@ static const struct hit *part_of(const struct cycle_scene *s, struct random *ran
   return k < last ? &hits[k] : NULL;
 }
 
-/* The nearest hits of parts of the rays, and whether there are any, by the lists of the whole. */
+/* Compares the nearest hits of parts of the rays, and whether there are any, with the lists of the whole rays. */
 static void ask_parts(const struct cycle_scene *s, struct random *random, size_t count, const struct ray whole[],
                       const struct hit_list lists[], struct count *to)
 {
@@ -258,7 +259,7 @@ static void test_shape(void **state)
   print_count(cycle_shape_name(shape), seed, &count);
 }
 
-/* Many copies of a surface: as copies, or so many patches that none is kept. */
+/* Many instances of a surface: as copies, or as so many patches that none is kept. */
 static void test_crowd(void **state)
 {
   const bool copied = *state != NULL;

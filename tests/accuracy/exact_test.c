@@ -1,4 +1,4 @@
-/* The exact judge judged: it lists each root once, on the lines where it halves boxes and next to them too. */
+/* Proves that the exact judge lists each root once, also on the lines where it halves boxes and next to them. */
 #include "accuracy/certificate.h"
 
 #include <math.h>

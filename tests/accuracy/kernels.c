@@ -1,7 +1,8 @@
-/* Every kernel that the processor can run gives the same answers, whatever the ray: the same hit or miss, certainty and
- * patch; T, U, V may differ in their last places only. Beside whatever other rays they are the same to the last bit, but where
- * another hit, or a border, is too near to be told from it by doubles: there T, U, V may differ in their last places, too. And any
- * hit is found exactly where a closest one is. All classes of hostile.h, prints for each what differs. */
+/* Proves that every kernel of the processor gives the same answers to every ray: the same hit or miss, certainty and
+ * patch; T, U, V differ in their last places only. Whatever rays are beside it, a ray's answer is the same to the last
+ * bit. The exception is a ray for which another hit, or a border, is too near for doubles to tell apart: there T, U, V
+ * may differ in their last places. Any hit is found exactly where a closest one is. Runs all classes of hostile.h, and
+ * prints for each what differs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

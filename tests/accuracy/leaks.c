@@ -1,9 +1,9 @@
-/* No ray leaves a closed model: rays from inside the dome, the ball, the torus and the teapot aimed exactly at
- * shared edges, corners, poles and iso-lines (where leaves of a patch meet), general and axis-aligned, with every
- * solver; and rays that leave a hit neither strike the point they leave nor miss what comes next.
+/* Proves that no ray leaves a closed model. Rays from inside the dome, the ball, the torus and the teapot are aimed
+ * exactly at shared edges, corners, poles and iso-lines (where leaves of a patch meet), general and axis-aligned, with
+ * every solver. Rays that leave a hit neither strike the point they leave nor miss what comes next.
  *
- * A ray `origin + t (target - origin)` with the target on the surface hits at t = 1 or before, so a ray that slips
- * through at the target shows even where it strikes the far wall. */
+ * A ray `origin + t (target - origin)` with the target on the surface hits at t = 1 or before. So a ray that slips
+ * through at the target is noticed even if it strikes the far wall. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
-/* Inside and outside by parity: of all hits of a ray with a closed model a certain number is odd where the ray starts
- * inside and even where it starts outside. Rays aimed exactly at shared edges, corners, poles and iso-lines, next to
- * them, along tangents of the surface and along the axes, each from inside and from outside, with every solver and with
- * whole patches. Whatever is wrong says that it is grazing. */
+/* Proves inside and outside by parity: the number of all hits of a ray with a closed model, if certain, is odd for a
+ * start inside and even for one outside. Rays are aimed exactly at shared edges, corners, poles and iso-lines, next to
+ * them, along tangents of the surface and along the axes, from inside and from outside, with every solver and with
+ * whole patches. Every wrong answer must be called grazing. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,9 +1,8 @@
-/* Every solver on every polynomial of the corpus, in both bases, against guaranteed roots: whatever it says must be
- * true.
+/* Proves that every solver makes only true statements on every polynomial of the corpus, in both bases, against
+ * guaranteed roots.
  *
- * The Bernstein form is a rounded one with its bounds, and the truth is the power form it was made from: so the
- * coefficient bounds are put to the test as well.
- */
+ * The Bernstein form is rounded, with bounds, and the truth is the power form it was made from, so the coefficient
+ * bounds are tested as well. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -82,7 +82,7 @@ static int lost_of_real(const struct trial *trial)
   return 0;
 }
 
-/* False statements of one answer. */
+/* The number of false statements of one answer. */
 static int judge(struct trial *trial)
 {
   int wrong = 0;

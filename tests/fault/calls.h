@@ -1,5 +1,5 @@
-/* Calls that fail: the linker (CMakeLists.txt) hands every such call in commands and library to calls.c. What jansson
- * and OpenImageIO allocate is theirs. */
+/* Calls that fail: the linker (CMakeLists.txt) passes every call of these kinds in commands and library to calls.c.
+ * What jansson and OpenImageIO allocate is not included. */
 #ifndef PSCN_TESTS_FAULT_CALLS_H
 #define PSCN_TESTS_FAULT_CALLS_H
 

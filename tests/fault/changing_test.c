@@ -1,5 +1,5 @@
-/* A piece of a picture that is written anew while `pscn merge` is under way, between its header and its pixels: no picture
- * is made of it. */
+/* Proves that `pscn merge` makes no picture of a piece that is rewritten meanwhile, between the reading of its header
+ * and of its pixels. */
 #define _DEFAULT_SOURCE /* mkdtemp */
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* The text of --solver. What is understood of it reads back from its own text as the same method. */
+/* Fuzzes the text of --solver: a text that is accepted, written back, reads as the same method. */
 #include <string.h>
 
 #include "language/language.h"

@@ -1,10 +1,9 @@
-/* Reading when memory runs out: the nth allocation fails, for every n that a text needs. Each time the answer is
- * STATUS_LIMIT with something told, or, where what failed could be done without, the same scene; nothing leaks (the
- * sanitizers look).
+/* Proves that reading survives a lack of memory: the nth allocation fails, for every n that a text needs. Each time the
+ * status is STATUS_LIMIT with a message, or the scene is the same, if reading could do without the allocation. Nothing
+ * leaks (the sanitizers check).
  *
- * The linker hands every call of malloc, calloc, realloc and strdup in the library to the functions below, and those of
- * arena_alloc, which would ask for memory once in many calls.
- */
+ * The linker passes every call of malloc, calloc, realloc and strdup in the library to the functions below, and every
+ * call of arena_alloc, which asks for memory only once in many calls. */
 #define _DEFAULT_SOURCE /* scandir */
 #include <dirent.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-/* The table of names: what is put in is found, the newest first, whatever its bytes are; and where it lies nobody can
- * tell beforehand, or a text could be made that takes the square of its length to read. */
+/* Proves that the table of names finds what is put in, the newest first, whatever its bytes are; and that nobody can
+ * predict where an entry lies, or a text could be made that takes quadratic time to read. */
 #include "language/table.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
-/* pscn.h: all hits of a ray, in order, as many as there are room for; counts alone; memory that fails. */
+/* Proves of pscn.h that all hits of a ray come in order, as many as there is room for; that counts alone can be asked
+ * for; and that memory may fail. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>

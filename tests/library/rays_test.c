@@ -1,5 +1,5 @@
-/* pscn.h: answers are the intersector's, each its ray's alone, whatever the order of rays, the strides, the caller's
- * rounding mode and the other threads; and every member of an answer is written. */
+/* Proves of pscn.h that answers are the intersector's, each depending on its ray alone, whatever the order of rays, the
+ * strides, the caller's rounding mode and the other threads; and that every member of an answer is written. */
 #define _GNU_SOURCE /* feenableexcept */
 #include <fenv.h>
 #include <float.h>
