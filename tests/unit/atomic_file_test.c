@@ -1,4 +1,4 @@
-/* Files that appear whole or not at all. */
+/* Files appear whole or not at all. */
 #define _GNU_SOURCE /* O_TMPFILE */
 #include "base/atomic_file.h"
 
@@ -207,8 +207,8 @@ static void what_may_not_be_written_is_not_replaced(void **state)
   expect_file("a", "old");
 }
 
-/* What is mounted, append-only, or another user's in a sticky folder, is told before the work; not so in one's own folder, nor
- * to root. */
+/* A file that is mounted, append-only, or another user's in a sticky folder is refused before the work; not so in
+ * one's own folder, nor for root. */
 static void what_cannot_be_replaced_is_known_before(void **state)
 {
 #if defined(STATX_ATTR_MOUNT_ROOT)
@@ -414,7 +414,8 @@ static void several_files_appear_together(void **state)
   assert_int_equal(count_entries(), 3);
 }
 
-/* What is to go and has gone meanwhile, by another process, is no failure: here the file before it has taken it away. */
+/* A file that is to go, and that another process has removed meanwhile, is no failure: here the file before it in
+ * the list was the same one. */
 static void a_file_may_go_twice(void **state)
 {
   (void)state;
@@ -448,7 +449,8 @@ static void a_failing_name_undoes_those_before(void **state)
   expect_file("there", "old");
 }
 
-/* A file that is to go leaves no link to nothing, at which none could be written the next time; one that stays keeps its link. */
+/* A file that is to go takes its link along: a link to nothing would prevent writing the next time. A file that
+ * stays keeps its link. */
 static void a_link_goes_with_its_file(void **state)
 {
   (void)state;

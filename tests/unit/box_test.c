@@ -1,4 +1,4 @@
-/* Boxes of the last resort: a root that is proven is within its radii, whatever the coefficients are off by. */
+/* Boxes of the last resort: a proven root is within its radii, however the coefficients are off within their bounds. */
 #include "intersect/exact/box.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* What the chart's figure shows: which points stand together under which look and title, the steps of the front, and
- * where labels stand. The values are taken where gnuplot would draw them. */
+/* The chart's figure: which points stand together under which look and title, the steps of the front, and the places
+ * of labels. The values are taken where gnuplot would draw them. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-/* What check measures: our own picture, a row of POV-Ray's beside it, the worst pixels and the map of them. POV-Ray's
- * answers are made up here. */
+/* The measurements of check: our own picture, one of POV-Ray's rows beside it, the worst pixels and their map.
+ * POV-Ray's answers are made up here. */
 #include "check/measure.h"
 
 #include <math.h>
@@ -136,8 +136,7 @@ static void hits_of_one_alone_are_counted(void **state)
   free_check(&check);
 }
 
-/* The scene as it is written is read by its own text where that is wanted, and what POV-Ray says of it is told; with other
- * steps it is not. */
+/* If wanted, POV-Ray reads the scene's own text, and its messages are passed on; with other steps it does not. */
 static void own_text_is_as_written(void **state)
 {
   (void)state;

@@ -1,4 +1,4 @@
-/* The numbers and pictures that check writes, each in its place: of a check whose numbers are all different. */
+/* Each number and picture that check writes is in its place; the numbers of the check are all different. */
 #include <math.h>
 #include <string.h>
 

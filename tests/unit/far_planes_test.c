@@ -1,4 +1,4 @@
-/* Rays from very far away: how far their planes are off, in doubles and in fixed point, is within the bounds. */
+/* Rays from very far away: the errors of their planes, in doubles and in fixed point, are within the bounds. */
 #include <math.h>
 
 #include "base/wide.h"

@@ -1,5 +1,6 @@
-/* Folds: where one is told to be the only one of its box, the box has the roots that it tells, and no others. Of cubics f(x) on the
- * line y = 0, whose slope is 0 at two places: one is a fold, and as the other one comes near the box it is more and more bent. */
+/* Folds: if one is reported as the only one of its box, the box has the reported roots and no others. Tested on
+ * cubics f(x) on the line y = 0, whose slope is 0 at two places: one is a fold, and as the other one approaches the
+ * box, the fold is more and more bent. */
 #include "intersect/exact/fold.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Lanes against scalar code, on values of every kind. Compiled once per instruction set (CMakeLists.txt); where the
- * processor lacks it the test is skipped. */
+/* Lanes against scalar code, on values of every kind. Compiled once per instruction set (CMakeLists.txt); skipped if
+ * the processor lacks it. */
 #include "base/lanes.h"
 
 #include <float.h>

@@ -1,4 +1,5 @@
-/* Parts and leaves of patches: the same bits however many are made at once, their bounds, polynomials and boxes. */
+/* Parts and leaves of patches have the same bits however many are made at once; their bounds, polynomials and boxes
+ * hold. */
 #include "intersect/prepare/leaf.h"
 
 #include <math.h>

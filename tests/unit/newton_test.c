@@ -1,5 +1,5 @@
-/* Roots on a leaf, and beside it: one that is proven is within its radii, whatever the points are off by. Compiled once per
- * instruction set (CMakeLists.txt); where the processor lacks it the test is skipped. */
+/* Roots on a leaf, and beside it: a proven root is within its radii, however the points are off within their bounds.
+ * Compiled once per instruction set (CMakeLists.txt); skipped if the processor lacks it. */
 #include "cmocka_test.h"
 #include "intersect/lanes/newton.h"
 #include "lanes_main.h"

@@ -1,4 +1,4 @@
-/* Numbers as text: what is read as one and how much of the text, to the nearest double, and what is written. */
+/* Numbers as text: what is read as a number, how much of the text it takes, its nearest double, and what is written. */
 #include "base/number.h"
 
 #include <float.h>

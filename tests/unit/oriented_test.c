@@ -1,6 +1,6 @@
-/* The box along a leaf, as floats, against rays through points of the leaf: none of them may be told to miss it, wherever it
- * starts and however large the leaf's tree is. Compiled once per instruction set (CMakeLists.txt); where the processor lacks
- * it the test is skipped. */
+/* The box along a leaf, in floats, is missed by no ray through a point of the leaf, wherever the ray starts and
+ * however large the leaf's tree is. Compiled once per instruction set (CMakeLists.txt); skipped if the processor
+ * lacks it. */
 #include <math.h>
 #include <string.h>
 

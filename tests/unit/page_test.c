@@ -1,4 +1,4 @@
-/* Templates: what stands in them, what they are filled with; foreign text made printable. */
+/* Templates: their contents, and the values that fill them; foreign text made printable. */
 #include "check/fill.h"
 #include "check/page.h"
 

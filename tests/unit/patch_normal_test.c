@@ -1,4 +1,4 @@
-/* Normals, where Su x Sv is and where only its limit is. */
+/* Normals, where Su x Sv has a direction and where only its limit has. */
 #include <math.h>
 #include <string.h>
 

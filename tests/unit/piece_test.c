@@ -1,4 +1,4 @@
-/* Parts of a picture: what they say of their tiles is believed only where it can be. */
+/* Parts of a picture: their claims about their tiles are believed only where they can be true. */
 #include "command/piece.h"
 
 #include <inttypes.h>

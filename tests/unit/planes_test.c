@@ -1,6 +1,6 @@
-/* A leaf's slab, box and plane polynomials to the last places, against rays through points of what the leaf stands for, which is
- * as far from it as it may be: none of them may be told to miss it. Compiled once per instruction set (CMakeLists.txt); where
- * the processor lacks it the test is skipped. */
+/* A leaf's slab, box and plane polynomials are right to the last places. Rays go through points as far from the leaf
+ * as its error allows; none of them may be reported to miss it. Compiled once per instruction set (CMakeLists.txt);
+ * skipped if the processor lacks it. */
 #include "cmocka_test.h"
 #include "lanes_main.h"
 #include "unit/lane_subject.h"

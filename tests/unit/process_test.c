@@ -1,4 +1,4 @@
-/* Other programs: what they are given, how they end, and that they do. */
+/* Other programs: their surroundings, how they end, and that they do. */
 #include "check/process.h"
 
 #include <errno.h>

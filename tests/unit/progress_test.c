@@ -1,4 +1,4 @@
-/* What is told of a rendering and of a file that is written: a line now and then, or a bar on a terminal. */
+/* The progress of a rendering and of writing a file: a line now and then, or a bar on a terminal. */
 #include "command/progress.h"
 
 #include <stdarg.h>

@@ -1,6 +1,6 @@
-/* What a leaf's quadric tells of a ray, against rays through two or three points of what the leaf stands for, which is as far from it
- * as it may be: whichever of them are known, or none, as long as one is not the leaf is not done. Compiled once per instruction set (CMakeLists.txt); where
- * the processor lacks it the test is skipped. */
+/* The claims of a leaf's quadric about a ray hold. Rays go through two or three points as far from the leaf as its
+ * error allows. Whichever of these roots are known, the leaf is not closed as long as one is unknown. Compiled once
+ * per instruction set (CMakeLists.txt); skipped if the processor lacks it. */
 #include "cmocka_test.h"
 #include "intersect/lanes/quadric.h"
 #include "lanes_main.h"

@@ -1,4 +1,4 @@
-/* Rendering: the same pixels for any threads and crop, channels, samples, what is told meanwhile. */
+/* Rendering: the pixels do not depend on threads and crop; channels, samples and progress reports are right. */
 #include "base/clock.h"
 #include "unit/rendered.h"
 

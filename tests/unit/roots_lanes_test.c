@@ -1,5 +1,5 @@
-/* Methods on lanes, by themselves: polynomials of known roots, and what a solver must survive. Compiled once per
- * instruction set (CMakeLists.txt); where the processor lacks it the test is skipped. */
+/* Methods on lanes, by themselves: polynomials of known roots, and inputs that a solver must survive. Compiled once
+ * per instruction set (CMakeLists.txt); skipped if the processor lacks it. */
 #include "algebra/roots_lanes.h"
 
 #include "cmocka_test.h"

@@ -116,8 +116,8 @@ static void raised_degree(void **state)
   }
 }
 
-/* A root at u = 1, where the plane of u/(1-u) ends, is known as well as any other; the change of basis leaves the last
- * coefficient in doubt. */
+/* A root at u = 1, where the plane of u/(1-u) ends, is known as well as any other, although the change of basis
+ * leaves the last coefficient in doubt. */
 static void roots_at_one(void **state)
 {
   (void)state;
@@ -359,7 +359,7 @@ static void small_beside_large(void **state)
   }
 }
 
-/* 2^-354 is the root of x^3 - 2^-1062. A little beside it the cube is rounded to 2^-1062 all the same, by what underflows. */
+/* 2^-354 is the root of x^3 - 2^-1062. Just beside it, underflow rounds the cube to 2^-1062 all the same. */
 static void underflow_is_in_the_radius(void **state)
 {
   (void)state;
@@ -395,8 +395,8 @@ static int steps(const struct polynomial *p, const struct solver_options *option
   return all;
 }
 
-/* `start previous` begins at the roots before, in whatever unit they are sought, and leaves the new ones; `start cold` does
- * not look at them. */
+/* `start previous` begins at the previous roots, in whatever unit roots are sought, and leaves the new ones; `start
+ * cold` ignores them. */
 static void warm_start_is_where_roots_were(void **state)
 {
   (void)state;

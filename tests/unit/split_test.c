@@ -1,4 +1,4 @@
-/* How far patches are cut where `split` is auto. */
+/* How finely patches are cut if `split` is auto. */
 #include <stdlib.h>
 
 #include "cmocka_test.h"
@@ -133,7 +133,8 @@ static void patches_side_by_side_are_cut_less(void **state)
   assert_int_equal(split_of(deep_cup, 10000), 2);
 }
 
-/* Sheets in a stack are in one another's boxes: they are cut finer along what bends, as far as leaves go. */
+/* Sheets in a stack overlap one another's boxes: they are cut finer along the parameter that bends, as far as leaves
+ * go. */
 static void sheets_in_a_stack_are_cut_finer(void **state)
 {
   (void)state;
@@ -151,7 +152,7 @@ static void sheets_in_a_stack_are_cut_finer(void **state)
   assert_in_range(middle[0] * middle[1], 2, (1 << 19) / MANY);
 }
 
-/* What bends across a long side is cut across, however long it is; what does not is not. */
+/* A patch that bends across its long side is cut across, however long it is; a flat one is not. */
 static void rods_are_cut_across(void **state)
 {
   (void)state;

@@ -1,4 +1,4 @@
-/* Threads: each worker works once, and what one of them failed with is not lost. */
+/* Threads: each worker works once, and no worker's failure is lost. */
 #include "render/threads.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-/* Tiles: every piece of N has its share of them, evenly over the picture, and all pieces together have each pixel
+/* Tiles: each of N pieces has its share of them, evenly over the picture, and all pieces together have each pixel
  * once. */
 #include <stdlib.h>
 #include <string.h>

@@ -139,7 +139,7 @@ static void points_are_rounded_once(void **state)
   }
 }
 
-/* Of two ways whose sum is no double, neither is forgotten: no point is moved by the rounded one. */
+/* If the sum of two ways is no double, neither is lost: no point is moved by the rounded sum. */
 static void ways_are_added_exactly(void **state)
 {
   (void)state;

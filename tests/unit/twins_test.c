@@ -1,4 +1,4 @@
-/* Nets that are the same in any of the eight orders, in tables so small that searches run over their end. */
+/* Nets that are the same in one of the eight orders, in tables so small that searches wrap round their end. */
 #include "geometry/twins.h"
 #include "net_order.h"
 
