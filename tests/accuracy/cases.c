@@ -1,13 +1,12 @@
-/* Proves that rays which were once answered wrongly stay right. Each is a scene of tests/accuracy/cases that pscn and
- * POV-Ray read. The exact judge judges the answer. The first lines of the scene give the fault, the solver and the ray,
- * and
- *   from: T         where the ray begins, if not at its origin
- *   to: T           where it ends
+/* Rays that were once answered wrongly must stay right. Each is a scene of tests/accuracy/cases that pscn and POV-Ray
+ * read; the exact judge judges it. Its first lines say the fault, the solver, the ray, and
+ *   from: T         the ray begins there
+ *   to: T           it ends there
  *   certain: yes    the answer must be certain; `no`: it must not be
  *   t: T  uv: U V   where the hit must be, to the last places
- *   patch: N        the patch that it must be on
+ *   patch: N        its patch
  *   all: N          there must be N hits in all, certainly
- *   facing: X Y Z   the side on which the normal must be */
+ *   facing: X Y Z   the side of the normal */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -56,8 +55,7 @@ static bool faces(const char *text, const double normal[3])
   return !text[0] || (sscanf(text, "%lf %lf %lf", &side[0], &side[1], &side[2]) == 3 && vector_dot(side, normal) > 0);
 }
 
-/* Whether there are as many hits in all as `count` says, if it does; if they are certain, the first must be the
- * nearest. */
+/* Whether the hits are as many as in `count`, if any; if they are certain, the first must be the nearest. */
 static bool all_good(struct tracer *tracer, const struct ray *ray, const struct hit *nearest, const char *count)
 {
   struct hit_list list;

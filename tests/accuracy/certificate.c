@@ -206,7 +206,7 @@ static void tell_root(struct judging *j, struct truth_root *root)
   if (j->hit->patch != HIT_NONE) out->off = fabs(t_off(j, root)) / floor_of(j->certifier, root)->t;
 }
 
-/* Notes the nearest root, if there is none at T. */
+/* Tells the nearest proven root, if there is none at T. */
 static void nearest_root(struct judging *j)
 {
   struct truth_root *nearest = NULL;

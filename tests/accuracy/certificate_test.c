@@ -80,8 +80,8 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
   return least;
 }
 
-/* Whether the answer in a packet is as good as the one alone: of the same verdict and, if last places differ, proven as
- * well. */
+/* Whether the answer in a packet is as good as the one alone: of the same verdict and, if T differs, not refuted
+ * either. */
 static bool fits(const struct hit *alone, const struct hit *packed, struct certifier *certifier, const struct ray *ray)
 {
   if (alone->patch != packed->patch || alone->certainty != packed->certainty) return false;

@@ -8,10 +8,10 @@
 #include "accuracy/generate.h"
 #include "cmocka_test.h"
 
-/* The numbers of patches from which copies share their leaves, and from which no leaves are kept. */
+/* The least numbers of patches with shared leaves of copies, and with no leaves kept. */
 enum { COPIED = 1100, UNKEPT = 66000, SPLITS = 16 };
 
-/* The distance between the surfaces of a crowd, in units of their size. */
+/* The distance between surfaces of a crowd, in their size. */
 #define APART 8
 
 static void *room(size_t count, size_t size)
@@ -21,7 +21,7 @@ static void *room(size_t count, size_t size)
   return made;
 }
 
-/* Makes the intersector and the tracer; patches, methods and objects are there. */
+/* Makes intersector, tracer, middle and size. */
 static void prepare(struct cycle_scene *out)
 {
   assert_int_equal(intersector_create(&out->scene, &out->intersector), STATUS_OK);

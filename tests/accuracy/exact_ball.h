@@ -30,8 +30,7 @@ void ball_jet_clear(struct ball_jet *jet);
 /* The net c at the ball (s,t). */
 void ball_evaluate(const fmpz *c, const arb_t s, const arb_t t, struct ball_jet *out, long bits);
 
-/* A starting point for Newton's method: the result of the same method in doubles, from the middle of the box. Proves
- * nothing. */
+/* Where Newton's method starts: its end in doubles, from the middle of the box, or the middle. Proves nothing. */
 void ball_start(const fmpz (*F)[16], arb_t s, arb_t t);
 
 /* Newton's method from the point (s,t), radii 0. On success (s,t) is a ball that holds exactly one root. */

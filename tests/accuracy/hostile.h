@@ -10,9 +10,8 @@
 size_t every_class_count(void);
 const struct situation_class *every_class_at(size_t index); /* index < the count */
 
-/* Whether the class has tangencies of the third order and higher, or rays past a met pole, where the limit on a ray's
- * work ends the search before the roots are told apart. The exact judge's findings on grazing answers there are counted
- * and printed, and prove no fault. */
+/* Whether a ray's limit of work ends the search before the roots are told apart: tangencies of the third order and
+ * higher, rays past met poles. Findings on grazing answers are counted and printed, and prove no fault. */
 bool class_told_only(const struct situation_class *class);
 
 #endif

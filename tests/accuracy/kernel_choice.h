@@ -9,7 +9,7 @@
 /* How many sets this processor can run; the last is the plainest. */
 size_t kernel_choices(void);
 
-/* Makes the tracer use number `index` from now on. Returns its name. */
+/* Makes the tracer use number `index`; returns its name. */
 const char *kernel_choose(struct tracer *tracer, size_t index);
 
 #endif

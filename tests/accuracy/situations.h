@@ -1,4 +1,4 @@
-/* Situations in which methods fail, in named classes. Each class is a seeded generator of patches and rays. */
+/* Situations in which methods fail: each class a named, seeded generator of patches and rays. */
 #ifndef TESTS_ACCURACY_SITUATIONS_H
 #define TESTS_ACCURACY_SITUATIONS_H
 

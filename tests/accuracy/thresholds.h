@@ -1,5 +1,5 @@
-/* Generators of situations on both sides of each threshold by which the intersector chooses how to treat a patch or a
- * ray: lengths of directions, degrees, leaves, sizes within one scene. See hostile.h. */
+/* Generators of situations on both sides of the intersector's thresholds for how to treat a patch or ray: lengths of
+ * directions, degrees, leaves, sizes within one scene. See hostile.h. */
 #ifndef TESTS_ACCURACY_THRESHOLDS_H
 #define TESTS_ACCURACY_THRESHOLDS_H
 

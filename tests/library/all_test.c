@@ -1,5 +1,4 @@
-/* Proves of pscn.h that all hits of a ray come in order, as many as there is room for; that counts alone can be asked
- * for; and that memory may fail. */
+/* Proves of pscn.h: all hits come in order, as many as there is room for; counts alone; memory may fail. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
