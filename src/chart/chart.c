@@ -72,8 +72,8 @@ static enum status take_rays(struct chart *chart, const struct method *options, 
                                       &chart->rays[RAYS_CAMERA]);
   pscn_runner_free(&chart->yardstick);
   if (status == STATUS_OK) status = pscn_runner_create(chart->scene, options, chart->rays, &chart->yardstick);
-  const size_t count = chart->rays[RAYS_CAMERA].count;
   if (status != STATUS_OK) return status;
+  const size_t count = chart->rays[RAYS_CAMERA].count;
   *out_hits = arena_alloc(chart->arena, count + 1, sizeof **out_hits);
   if (*out_hits == NULL) return STATUS_LIMIT;
   pscn_runner_hits(&chart->yardstick, *out_hits);

@@ -219,73 +219,61 @@ LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
 /* That unit for a root at this distance from the pole; 1 where there is none. */
 LANES_INLINE lanes pole_unit(lanes away) { return lanes_select((away > 0) & (away < POLE_UNIT), away, lanes_all(1)); }
 
-/* What the certificate asks of the inverse Jacobian and of the last step, with one parameter in a unit of its own. */
-struct scaled {
-  lanes unit[2];
-  lanes length[2]; /* of the rows of M */
-  lanes step;      /* the larger one */
-  lanes second;    /* |Suu| + 2 |Suv| + |Svv| */
-};
-
-/* As they are. */
-LANES_INLINE struct scaled not_scaled(const struct leaf *leaf, const lanes length[2], lanes step)
-{
-  const lanes one = lanes_all(1);
-  return (struct scaled){
-    {one, one}, {length[0], length[1]}, step, lanes_all(leaf->second[0] + 2 * leaf->second[1] + leaf->second[2])};
-}
-
-/* Next to the leaf's pole. Second derivatives by the parameter that turns round it vanish there, and elsewhere are no more
- * than the third one times the distance, that of the ball in which the theorem wants them. */
-LANES_INLINE struct scaled scaled_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes length[2],
-                                          const lanes steps[2])
+/* Takes to that unit what the certificate asks for next to the leaf's pole: the lengths of the rows of M, the last step's
+ * length, and |Suu| + 2 |Suv| + |Svv|. Returns the unit. The second derivative by the parameter that turns round the pole
+ * vanishes there, and elsewhere is no more than a third one times the distance, up to that of the ball in which the
+ * theorem wants it. */
+LANES_INLINE lanes scale_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes steps[2],
+                                 lanes length[2], lanes *step, lanes *second)
 {
   const int d = (leaf->pole - 1) / 2, e = 1 - d;
   const lanes unit = pole_unit(pole_distance(leaf, r)), far = (1 + 4 * CERTIFICATE_REACH) * unit;
-  const lanes ee = lanes_select(unit < 1, lanes_min(lanes_all(leaf->second[2 * e]), far * leaf->third[e]),
-                                lanes_all(leaf->second[2 * e]));
-  struct scaled is = {.step = lanes_max(lanes_abs(steps[d]) / unit, lanes_abs(steps[e]))};
-  is.unit[d] = unit, is.unit[e] = lanes_all(1);
-  is.length[d] = length[d] / unit, is.length[e] = length[e];
-  is.second = unit * (unit * leaf->second[2 * d] + 2 * leaf->second[1]) + ee;
-  return is;
+  const lanes whole = lanes_all(leaf->second[2 * e]);
+  const lanes ee = lanes_select(unit < 1, lanes_min(whole, far * leaf->third[e]), whole);
+  *step = lanes_max(lanes_abs(steps[d]) / unit, lanes_abs(steps[e]));
+  *second = unit * (unit * leaf->second[2 * d] + 2 * leaf->second[1]) + ee;
+  length[d] /= unit;
+  return unit;
 }
 
-/* Lanes whose root is the only one of a leaf with a pole, by certificate.h. size: lengths of the rows of M. */
+/* Lanes whose root is the only one of a leaf with a pole, by certificate.h. size: lengths of the rows of M; step and off
+ * in that unit of the distance. */
 LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes size[2],
-                                     const struct scaled *is, lanes off, const lanes reach[2])
+                                     lanes unit, lanes step, lanes off, const lanes reach[2])
 {
   const int d = (leaf->pole - 1) / 2, e = 1 - d;
   const lanes away = pole_distance(leaf, r);
-  const lanes radius = d ? r->radius_v : r->radius_u, far = is->unit[d] * is->step + radius, left = away - far;
+  const lanes radius = d ? r->radius_v : r->radius_u, far = unit * step + radius, left = away - far;
   const lanes of_e = (away + radius) * size[e];
   const double *third = leaf->third, dd = leaf->second[2 * d], dde = third[d], dee = third[e];
   const lanes q = size[d] * (dd * reach[d]) + of_e * (dde * reach[d] + dee * reach[e]);
   const lanes turn = size[d] * (dd + leaf->second[1]) + of_e * (dde + dee);
-  return (left > 0) & certificate_alone_at_pole(q, turn, is->step, off, far, left);
+  return (left > 0) & certificate_alone_at_pole(q, turn, step, off, far, left);
 }
 
-/* The certificate (certificate.h). Sets all but u and v of *r, which are where the last step, of this length in each
- * parameter, went on the lanes that `settled`; `bound` bounds the errors of values in the leaf. */
+/* The certificate (certificate.h). Sets all but u and v of *r, which are where the last steps went on the lanes that
+ * `settled`; step is the longer one, `bound` bounds the errors of values in the leaf. */
 LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes bound,
                         const lanes steps[2], lanes step, lane_mask settled, struct newton_root *r)
 {
   const lanes away[2] = {lanes_abs(r->u - 0.5), lanes_abs(r->v - 0.5)}, farthest = lanes_max(away[0], away[1]);
   const lanes error = lanes_select(farthest > 0.5 + NEWTON_BESIDE, NEWTON_BESIDE_GROWTH * bound, bound);
   const lanes length[2] = {row_length(m->ua, m->ub, slope), row_length(m->va, m->vb, slope)};
-  const struct scaled is = leaf->pole ? scaled_at_pole(leaf, r, length, steps) : not_scaled(leaf, length, step);
-  const lanes size = lanes_max(is.length[0], is.length[1]);
-  const lanes bend = size * is.second;
-  const lanes off = size * error;
+  lanes scaled[2] = {length[0], length[1]}, unit = lanes_all(1);
+  lanes second = lanes_all(leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
+  if (leaf->pole) unit = scale_at_pole(leaf, r, steps, scaled, &step, &second);
+  const lanes size = lanes_max(scaled[0], scaled[1]), bend = size * second, off = size * error;
   const lane_mask near = (away[0] < 0.5 + NEWTON_MARGIN) & (away[1] < 0.5 + NEWTON_MARGIN);
-  r->exists = settled & near & certificate_holds(bend, is.step, off);
-  r->radius_u = is.unit[0] * certificate_radius(bend, is.step, is.length[0] * error);
-  r->radius_v = is.unit[1] * certificate_radius(bend, is.step, is.length[1] * error);
+  r->exists = settled & near & certificate_holds(bend, step, off);
+  r->radius_u = certificate_radius(bend, step, scaled[0] * error);
+  r->radius_v = certificate_radius(bend, step, scaled[1] * error);
+  if (leaf->pole > 2) r->radius_v *= unit;
+  else if (leaf->pole) r->radius_u *= unit;
   const lanes reach[2] = {0.5 + away[0], 0.5 + away[1]};
   const lanes q = length[0] * (leaf->second[0] * reach[0] + leaf->second[1] * reach[1]) +
                   length[1] * (leaf->second[1] * reach[0] + leaf->second[2] * reach[1]);
   r->alone = r->exists & certificate_alone(q, off);
-  if (leaf->pole) r->alone |= r->exists & alone_at_pole(leaf, r, length, &is, off, reach);
+  if (leaf->pole) r->alone |= r->exists & alone_at_pole(leaf, r, length, unit, step, off, reach);
 }
 
 /* The rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size
