@@ -216,19 +216,19 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double 
 }
 
 /* Tells of a place that may be a hit at a root not known to be in its patch: the nearest point of the patch, and its
- * t. */
+ * t; or the root's, where that is known to be in the range, which doubles may not tell of the point's. */
 static void tell_maybe(struct judge *j, unsigned borders, const struct exact_root *root)
 {
   const double u = real_clamp((double)root->u, 0, 1), v = real_clamp((double)root->v, 0, 1);
   const double w = patch_evaluate(j->prepared->x[j->local.axis], u, v).value;
+  const bool in_range = root_in_range(j, root) == SIDE_INSIDE, own = root->sharp || in_range;
   double t = (double)root->t, t_error = root->t_error;
-  if (!root->sharp) {
+  if (!own) {
     t = t_of_depth(&j->local.depth, w);
     t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.depth.unit * j->local.depth.to_t));
   }
   const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error};
-  keep_maybe(j, &maybe, root->sharp ? least_t(root) : t - t_error,
-             root->sharp && root_in_range(j, root) == SIDE_INSIDE);
+  keep_maybe(j, &maybe, own ? least_t(root) : t - t_error, in_range);
 }
 
 void judge_maybe(struct judge *j, double u, double v, double t, double t_error, double from)
