@@ -340,8 +340,7 @@ static enum status choose_solver(const struct command *command, const struct req
   const enum status status = language_parse_solver(text, &diagnostics, out);
   if (status != STATUS_OK) return status;
   if (!out->basis_said) out->basis = BASIS_POWER;
-  if (!isnan(request->scene.tolerance)) out->roots.tolerance = request->scene.tolerance;
-  return STATUS_OK;
+  return language_set_tolerance(request->scene.tolerance, 1, out, &diagnostics);
 }
 
 static void begin_iterates(struct session *session)

@@ -113,6 +113,19 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
   return status;
 }
 
+enum status language_set_tolerance(double tolerance, size_t count, struct method methods[],
+                                   struct diagnostics *diagnostics)
+{
+  if (isnan(tolerance)) return STATUS_OK;
+  const struct method_item *item = method_item_find("tolerance");
+  if (!(tolerance >= item->minimum && tolerance <= item->maximum)) {
+    diagnostics_error(diagnostics, NOWHERE, "the tolerance is a number from %g to %g", item->minimum, item->maximum);
+    return STATUS_USAGE;
+  }
+  for (size_t k = 0; k < count; k++) item->set(&methods[k], tolerance);
+  return STATUS_OK;
+}
+
 /* Applies --solver and --tolerance. */
 static enum status override(struct scene *scene, const struct language_settings *settings,
                             struct diagnostics *diagnostics)
@@ -123,14 +136,7 @@ static enum status override(struct scene *scene, const struct language_settings 
     if (status != STATUS_OK) return status;
     scene_override_solver(scene, &method);
   }
-  if (isnan(settings->tolerance)) return STATUS_OK;
-  const struct method_item *item = method_item_find("tolerance");
-  if (!(settings->tolerance >= item->minimum && settings->tolerance <= item->maximum)) {
-    diagnostics_error(diagnostics, NOWHERE, "the tolerance is a number from %g to %g", item->minimum, item->maximum);
-    return STATUS_USAGE;
-  }
-  for (size_t s = 0; s < scene->solver_count; s++) item->set(&scene->solvers[s], settings->tolerance);
-  return STATUS_OK;
+  return language_set_tolerance(settings->tolerance, scene->solver_count, scene->solvers, diagnostics);
 }
 
 /* Ends a reading. If it ran out of memory, this has not been reported yet. */

@@ -55,4 +55,9 @@ STATUS_MUST_CHECK enum status language_load_text(const char *name, const char *t
 STATUS_MUST_CHECK enum status language_parse_solver(const char *text, struct diagnostics *diagnostics,
                                                     struct method *out_method);
 
+/* Sets the tolerance of `count` methods, within the limits that a scene's text has; NAN leaves them as they are.
+ * STATUS_USAGE where it is beyond these. */
+STATUS_MUST_CHECK enum status language_set_tolerance(double tolerance, size_t count, struct method methods[],
+                                                     struct diagnostics *diagnostics);
+
 #endif

@@ -17,6 +17,7 @@ echo "exit $?"
 try pscn roots scene </dev/null
 try pscn roots --iterates --solver nothing </dev/null
 try pscn roots --tolerance 0 </dev/null
+try pscn roots --tolerance 2 </dev/null # as trace
 try pscn roots --stats nowhere/stats.json </dev/null
 try pscn roots --format csv </dev/null
 # A root beyond what a double holds; 25 such lines.
