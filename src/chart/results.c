@@ -205,7 +205,8 @@ enum status chart_write(const struct chart *chart, struct text_buffer *out_text)
   if (values != NULL && chart->points[0].camera.hits > 0)
     status = plot_draw(chart->listener, TEMPLATE_CHART_FIGURE, values, &content[SVG]);
   if (values != NULL && content[SVG].length > 0)
-    (void)json_object_set_new(values, "figure", json_stringn(content[SVG].text, content[SVG].length));
+    content[PAGE].failed = json_object_set_new(values, "figure",
+                                               json_stringn(content[SVG].text, content[SVG].length)) != 0;
   fill_template(&content[CSV], TEMPLATE_CHART_CSV, values);
   fill_template(&content[PAGE], TEMPLATE_CHART_PAGE, values);
   fill_template(out_text, TEMPLATE_CHART_TABLE, values);

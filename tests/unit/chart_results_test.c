@@ -1,7 +1,8 @@
 /* The chart's figure: which points stand together under which look and title, the steps of the front, and the places
- * of labels. The values are taken where gnuplot would draw them. */
+ * of labels. The values are taken where gnuplot would draw them. And memory that jansson does not get. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "chart/work.h"
 #include "check/page.h"
@@ -9,13 +10,16 @@
 #include "unit/drawn.h"
 #include "unit/expect_json.h"
 
+static bool failed; /* a page is not whole */
+
 enum status __wrap_page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
                               const struct text_buffer content[]);
 enum status __wrap_page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
                               const struct text_buffer content[])
 {
   (void)listener, (void)paths;
-  for (size_t k = 0; k < count; k++) assert_false(content[k].failed);
+  failed = false;
+  for (size_t k = 0; k < count; k++) failed = failed || content[k].failed;
   return STATUS_OK;
 }
 
@@ -27,8 +31,8 @@ static struct chart_point point(enum family family, double ns, double error, siz
   return p;
 }
 
-/* The values that the figure of these points is drawn from, to be freed. */
-static json_t *figure_of(struct chart_point *points, size_t count)
+/* The values that the figure of these points is drawn from, to be freed; NULL where memory is short. */
+static json_t *values_of(struct chart_point *points, size_t count)
 {
   double yard[RAY_KINDS] = {0};
   const struct chart_request request = {.path = "folder/scene", .folder = "out", .command_line = ""};
@@ -37,9 +41,16 @@ static json_t *figure_of(struct chart_point *points, size_t count)
   struct text_buffer table = {0};
   drawn = NULL;
   assert_int_equal(chart_write(&chart, &table), STATUS_OK);
-  assert_non_null(drawn);
   text_buffer_free(&table);
   return drawn;
+}
+
+static json_t *figure_of(struct chart_point *points, size_t count)
+{
+  json_t *values = values_of(points, count);
+  assert_false(failed);
+  assert_non_null(values);
+  return values;
 }
 
 /* Each number of a point, all different, under its name; a solver's choices by their words; a peer has none. */
@@ -143,10 +154,36 @@ static void labels_make_way(void **state)
   json_decref(values);
 }
 
+static long left; /* blocks until jansson does not get one; negative: it has not got one */
+
+static void *json_block(size_t size) { return left-- == 0 ? NULL : malloc(size); }
+
+/* A page that lacks anything because memory is short fails: the block that is missing is any of the values' or of the
+ * figure's, or of the copy that the figure is drawn from here. */
+static void pages_are_whole(void **state)
+{
+  (void)state;
+  struct chart_point points[] = {point(FAMILY_ABERTH, 1, 0.5, 0, "1"), point(FAMILY_EMBREE, 2, 0.25, 0, "8")};
+  points[0].front = points[1].front = true;
+  bool whole = false;
+  json_malloc_t get;
+  json_free_t release;
+  json_get_alloc_funcs(&get, &release);
+  json_set_alloc_funcs(json_block, free);
+  for (long n = 0; !whole; n++) {
+    left = n;
+    json_t *values = values_of(points, 2);
+    whole = left >= 0;
+    assert_true(whole ? !failed && values != NULL : failed || values == NULL);
+    json_decref(values);
+  }
+  json_set_alloc_funcs(get, release);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_in_their_place),
-                                     cmocka_unit_test(each_family_is_titled_once),
-                                     cmocka_unit_test(steps_join_the_front), cmocka_unit_test(labels_make_way)};
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(numbers_are_in_their_place), cmocka_unit_test(each_family_is_titled_once),
+    cmocka_unit_test(steps_join_the_front), cmocka_unit_test(labels_make_way), cmocka_unit_test(pages_are_whole)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
