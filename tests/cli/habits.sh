@@ -18,6 +18,7 @@ try pscn compair a b
 try pscn frobnicate
 try pscn help rendr
 try pscn render flat.pscn --chanels rgb
+try pscn render flat.pscn --siez=8x8
 try pscn render flat.pscn --chan rgb
 try pscn render flat.pscn --s
 try pscn render flat.pscn --quie=1
