@@ -162,7 +162,8 @@ static void highlights_are_no_brighter_than_their_light(void **state)
   lights[0] = light;
 }
 
-/* The shadow ray begins beside the surface, and where the light is just there, it still has a direction. */
+/* The shadow ray begins beside the surface and ends at the light, along an axis too; where the light is just where it
+ * begins, it still has a direction. */
 static void a_light_may_be_where_its_shadow_ray_begins(void **state)
 {
   (void)state;
@@ -177,6 +178,7 @@ static void a_light_may_be_where_its_shadow_ray_begins(void **state)
   struct scene_light light = {.position = {2, 1, 1}};
   struct ray shadow;
   assert_true(shade_shadow_ray(&light, &hit, &shadow));
+  assert_true(shadow.direction[0] == 0 && shadow.direction[2] == light.position[2] - shadow.origin[2]);
   memcpy(light.position, shadow.origin, sizeof light.position);
   assert_true(shade_shadow_ray(&light, &hit, &shadow));
   assert_memory_equal(light.position, shadow.origin, sizeof light.position);
