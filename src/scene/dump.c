@@ -25,11 +25,19 @@ static void put_item(struct dump *dump, const char *before, double value)
   put_number(dump, value);
 }
 
+/* In two calls of stdio, each of which costs as much as writing a number. */
 static void put_vector(struct dump *dump, const char *before, const double v[3])
 {
+  char text[3 * (NUMBER_TEXT_SIZE + 2)], *end = text;
+  for (int k = 0; k < 3; k++) {
+    *end++ = k == 0 ? '<' : ',';
+    if (k > 0) *end++ = ' ';
+    end += number_write(v[k], end);
+  }
+  *end++ = '>';
+  *end = '\0';
   put(dump, before);
-  for (int k = 0; k < 3; k++) put_item(dump, k == 0 ? "<" : ", ", v[k]);
-  put(dump, ">");
+  put(dump, text);
 }
 
 static void put_solver(struct dump *dump, const struct method *method)
