@@ -19,7 +19,7 @@
 #include "cmocka_test.h"
 #include "files.h"
 
-/* Renamings that succeed before one fails (the linker hands them over to us); negative: all do. */
+/* This many renamings succeed before one fails (the linker passes them here); negative: all do. */
 static long rename_left = -1;
 
 int __real_rename(const char *from, const char *to);
@@ -32,13 +32,13 @@ int __wrap_rename(const char *from, const char *to)
   return -1;
 }
 
-/* What opening a file without a name fails with, where the file system has none of these; 0: it has. */
+/* The error of opening a file without a name, as on file systems that have none of these; 0: it succeeds. */
 static int no_unnamed;
 
-/* Temporary names that somebody else has made before us. */
+/* This many temporary names are taken by somebody else. */
 static int guessed;
 
-/* With what permissions the last file was made. */
+/* The permissions that the last file was created with. */
 static mode_t made_mode;
 
 int __real_open(const char *path, int flags, ...);
@@ -56,7 +56,7 @@ int __wrap_open(const char *path, int flags, ...)
   return __real_open(path, flags, mode);
 }
 
-/* What asking whether a file may be written, and closing one, fail with; 0: they do not. */
+/* The errors of asking whether a file may be written, and of closing one; 0: none. */
 static int access_reason, close_reason;
 
 int __real_access(const char *path, int how);
@@ -78,7 +78,7 @@ int __wrap_close(int descriptor)
   return result == 0 && close_reason != 0 ? -1 : result;
 }
 
-/* What is told of the file "a" and of its folder, where anything is: attributes, owners, modes; and who we are. */
+/* What the system says of the file "a" and of its folder, unless NULL: attributes, owners, mode; and the user. */
 static const struct told {
   uint64_t attributes;
   mode_t folder_mode;
@@ -104,10 +104,10 @@ uid_t __wrap_geteuid(void);
 
 uid_t __wrap_geteuid(void) { return told == NULL ? __real_geteuid() : told->user; }
 
-/* What others may do with the unfinished file when it is flushed to the disk; -1: there is none by any name. */
+/* The permissions of the unfinished file when it is flushed to the disk; -1: it has no name. */
 static int unfinished_mode;
 
-/* What flushing a regular file fails with; 0: it does not. And how many folders were flushed. */
+/* The error of flushing a regular file; 0: none. And the number of folders flushed. */
 static int fsync_reason, folders_flushed;
 
 int __real_fsync(int descriptor);
@@ -123,7 +123,7 @@ int __wrap_fsync(int descriptor)
   return fsync_reason != 0 ? -1 : __real_fsync(descriptor);
 }
 
-/* A new empty folder for each test, and the process's mask of permissions set to a known value. */
+/* Makes a new empty folder for each test, and sets the process's mask of permissions to a known value. */
 static int enter_folder(void **state)
 {
   char *name = strdup("/tmp/pscn-test-XXXXXX");
@@ -175,7 +175,7 @@ static void new_file_has_the_masks_permissions(void **state)
   assert_int_equal(count_entries(), 0);
   assert_int_equal(write_text("a", "text", &reason), STATUS_OK);
   assert_int_equal(reason, 0);
-  assert_int_equal(folders_flushed, 1); /* or the name may be gone when the power is */
+  assert_int_equal(folders_flushed, 1); /* otherwise a power failure may lose the name */
   expect_file("a", "text");
   assert_int_equal(mode_of("a"), 0644);
   assert_int_equal(count_entries(), 1);
@@ -194,7 +194,7 @@ static void old_file_is_replaced_and_keeps_its_permissions(void **state)
   assert_int_equal(mode_of("a"), 04750);
 }
 
-/* Though the folder would allow it. */
+/* Although its folder could be written. */
 static void what_may_not_be_written_is_not_replaced(void **state)
 {
   (void)state;
@@ -207,8 +207,8 @@ static void what_may_not_be_written_is_not_replaced(void **state)
   expect_file("a", "old");
 }
 
-/* A file that is mounted, append-only, or another user's in a sticky folder is refused before the work; not so in
- * one's own folder, nor for root. */
+/* A file that is a mount point, append-only, or another user's in a sticky folder is refused before the work; but not
+ * in one's own folder, nor for root. */
 static void what_cannot_be_replaced_is_known_before(void **state)
 {
 #if defined(STATX_ATTR_MOUNT_ROOT)
@@ -242,7 +242,7 @@ static void names_that_others_made_are_passed_over(void **state)
 {
   (void)state;
   int reason;
-  if (no_unnamed == 0) return; /* no name is made */
+  if (no_unnamed == 0) return; /* no name is created */
   guessed = 3;
   assert_int_equal(write_text("a", "text", &reason), STATUS_OK);
   guessed = 1000;
@@ -298,7 +298,7 @@ static void device_is_written_to_not_replaced(void **state)
   assert_int_equal(write_text("full", "text", &reason), STATUS_FILE);
   assert_int_equal(reason, ENOSPC);
   assert_int_equal(symlink("/dev/null", "null"), 0);
-  close_reason = EIO; /* some tell only then that nothing has arrived */
+  close_reason = EIO; /* some file systems report only then that nothing was written */
   const enum status closed = write_text("null", "text", &reason);
   close_reason = 0;
   assert_true(closed == STATUS_FILE && reason == EIO);
@@ -320,7 +320,7 @@ static void stopped_write_leaves_the_old_file(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
-/* Nor does a file go then for which nothing is written. */
+/* Nor does it remove a file that is to go. */
 static void stopped_writing_takes_nothing_away(void **state)
 {
   (void)state;
@@ -333,7 +333,7 @@ static void stopped_writing_takes_nothing_away(void **state)
   expect_file("a", "old");
 }
 
-/* A file system that cannot flush is no failure, a disk that does not is one. */
+/* A file system that cannot flush is no failure; a disk that fails to is. */
 static void what_is_not_on_the_disk_is_not_written(void **state)
 {
   (void)state;
@@ -352,7 +352,7 @@ static void what_is_not_on_the_disk_is_not_written(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
-/* A bell that rings on, since its first stroke may come before anybody waits. */
+/* A bell that keeps ringing: its first stroke may come before anybody waits. */
 static atomic_int rung;
 static void ring(int signal) { atomic_store(&rung, signal); }
 
@@ -375,7 +375,7 @@ static void a_signal_ends_the_wait_for_a_reader(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
-/* While a file is written nobody can open it, or where it needs a name, only who could open the old one. */
+/* Nobody can open a file while it is written; or, if it needs a name, only those who could open the old one. */
 static void unfinished_files_are_private(void **state)
 {
   (void)state;
@@ -383,12 +383,13 @@ static void unfinished_files_are_private(void **state)
   put_text("a", "old");
   assert_int_equal(chmod("a", 0600), 0);
   assert_int_equal(write_text("a", "new", &reason), STATUS_OK);
-  assert_int_equal(made_mode, 0600); /* at once: who has opened it can read it */
+  assert_int_equal(made_mode, 0600); /* from the start: whoever opens it then could read it later */
   assert_int_equal(unfinished_mode, no_unnamed != 0 ? 0600 : -1);
   assert_int_equal(mode_of("a"), 0600);
 }
 
-/* Several files: all, or none and the old ones stay. The last name is a folder, found when everything is written. */
+/* Of several files all appear, or none, and the old ones stay. The last name is a folder, found only when everything is
+ * written. */
 static void several_files_appear_together(void **state)
 {
   (void)state;
@@ -414,8 +415,8 @@ static void several_files_appear_together(void **state)
   assert_int_equal(count_entries(), 3);
 }
 
-/* A file that is to go, and that another process has removed meanwhile, is no failure: here the file before it in
- * the list was the same one. */
+/* A file to be removed that another process has removed meanwhile is no failure. Here the file before it in the list is
+ * the same one. */
 static void a_file_may_go_twice(void **state)
 {
   (void)state;
@@ -429,7 +430,7 @@ static void a_file_may_go_twice(void **state)
   expect_file("first", "new");
 }
 
-/* The same where a name cannot be given in the end. */
+/* The same, if the last file cannot get its name. */
 static void a_failing_name_undoes_those_before(void **state)
 {
   (void)state;
@@ -440,7 +441,7 @@ static void a_failing_name_undoes_those_before(void **state)
   put_text("kept", "old");
   put_text("removed", "old");
   put_text("there", "old");
-  rename_left = no_unnamed != 0 ? 2 : 1; /* of kept, and of made unless it is linked; that of there fails */
+  rename_left = no_unnamed != 0 ? 2 : 1; /* those of "kept", and of "made" unless it is linked; that of "there" fails */
   assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_FILE);
   rename_left = -1;
   assert_true(failed == 3 && reason == EIO && count_entries() == 3);
@@ -449,8 +450,8 @@ static void a_failing_name_undoes_those_before(void **state)
   expect_file("there", "old");
 }
 
-/* A file that is to go takes its link along: a link to nothing would prevent writing the next time. A file that
- * stays keeps its link. */
+/* A file that is removed takes its link along: a dangling link would prevent writing the next time. A file that stays
+ * keeps its link. */
 static void a_link_goes_with_its_file(void **state)
 {
   (void)state;
@@ -493,7 +494,7 @@ int main(void)
     IN_FOLDER(names_that_others_made_are_passed_over),
   };
   int failed = cmocka_run_group_tests_name("files without a name", tests, NULL, NULL);
-  const int reasons[] = {EOPNOTSUPP, EISDIR, EINVAL}; /* the latter ones of systems that do not know of these */
+  const int reasons[] = {EOPNOTSUPP, EISDIR, EINVAL}; /* the last two from systems that do not know such files */
   for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++) {
     no_unnamed = reasons[k];
     failed += cmocka_run_group_tests_name("files with names only", tests, NULL, NULL);

@@ -10,27 +10,27 @@
 
 enum { SEED = 20261122, CASES = 200000 };
 
-/* The two polynomials as they are, and in a box, off by up to error[k]. */
+/* The exact polynomials, and the box's, which are off by up to error[k]. */
 struct subject {
   struct quad_net truth[2];
   double error[2];
   struct box box;
 };
 
-/* With a second derivative by v and little else about v = c: there a surface that is seen edge-on along v is as good as
- * parallel to the ray. */
+/* Has a second derivative by v and little else near v = c. There a surface seen edge-on along v is nearly parallel to
+ * the ray. */
 static double curved(int i, int j, double c, double bend)
 {
   const double square[4] = {c * c, c * c - 2 * c / 3, c * c - 4 * c / 3 + 1.0 / 3, (1 - c) * (1 - c)};
   return i / 3.0 + bend * square[j];
 }
 
-/* b is a small part of what it could be where the box is seen edge-on. */
+/* Makes b a small part of what it could be, where the box is seen edge-on. */
 static void make(struct random *random, struct subject *s)
 {
   const double bend = random_between(random, -1, 1), c = random_between(random, 0.1, 0.9);
   const double tilt = pow(10, -random_between(random, 0, 12)), wild = pow(10, -random_between(random, 0, 12));
-  const int signs = (int)(random_bits(random) % 3); /* up, down, each its own way */
+  const int signs = (int)(random_bits(random) % 3); /* errors upwards, downwards, of random signs */
   s->box = (struct box){.size_u = 1, .size_v = 1};
   for (int k = 0; k < 2; k++) {
     s->error[k] = pow(2, random_between(random, -52, -40));
@@ -70,8 +70,8 @@ static void a_proven_root_is_within_its_radii(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* Polynomials u - c and v - c, c being as far beside the box as a root may be proven, off the way that moves their values there
- * farthest. */
+/* Polynomials u - c and v - c, with c as far beside the box as a root may be proven. Their errors have the signs that
+ * move the values there farthest. */
 static void a_root_beside_its_box_is_within_its_radii(void **state)
 {
   (void)state;

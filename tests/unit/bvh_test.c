@@ -26,7 +26,7 @@ static bool contains(const struct bvh_node *node, int side, const struct bvh_box
   return true;
 }
 
-/* Walks the subtree; returns the exact union of the given boxes below, which the parent must contain. */
+/* Walks the subtree. Returns the exact union of the boxes below it, which the parent must contain. */
 static struct bvh_box walk(struct walk *w, uint32_t child, int depth)
 {
   if (depth > w->depth) w->depth = depth;
@@ -41,7 +41,7 @@ static struct bvh_box walk(struct walk *w, uint32_t child, int depth)
   struct bvh_box sum = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
   assert_int_not_equal(node->child[0], 0);
   for (int side = 0; side < BVH_WIDTH; side++) {
-    if (node->child[side] == 0) { /* then all that follow */
+    if (node->child[side] == 0) { /* so are all that follow */
       assert_true(side + 1 == BVH_WIDTH || node->child[side + 1] == 0);
       continue;
     }
@@ -52,7 +52,7 @@ static struct bvh_box walk(struct walk *w, uint32_t child, int depth)
   return sum;
 }
 
-/* Builds and checks all that the header promises; returns the depth. */
+/* Builds the tree and checks all that the header promises. Returns the depth. */
 static int check(const struct bvh_box *boxes, size_t count)
 {
   struct bvh bvh;
@@ -125,8 +125,8 @@ static double area(const struct bvh_node *node, int side)
   return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
 }
 
-/* A ray tries as many boxes as those of the tree have surface, in units of the whole one's. Where ranges are divided
- * decides how many that are: 15.9, or 18.9 where the smallest range is divided first. */
+/* The expected number of boxes that a ray tries is the surface of all boxes of the tree, in units of the whole one's.
+ * It depends on where ranges are divided: 15.9, or 18.9 if the smallest range is divided first. */
 static void planes_are_the_cheapest(void **state)
 {
   (void)state;
@@ -145,7 +145,7 @@ static void planes_are_the_cheapest(void **state)
   bvh_free(&bvh);
 }
 
-/* The stored boxes are single precision: at an offset of 1e6 a box is smaller than their grain. */
+/* The stored boxes are in single precision: at an offset of 1e6 a box is smaller than one rounding. */
 static void rounding_goes_outwards(void **state)
 {
   (void)state;
@@ -177,8 +177,8 @@ static void all_equal(void **state)
   check(boxes, MANY);
 }
 
-/* Each box twice as far as the one before: a plane splits one off, so the depth grows by one a box until halving
- * takes over. */
+/* Each box is twice as far away as the one before. A plane splits one off, so the depth grows by one a box until
+ * halving takes over. */
 static void exponentially_spaced(void **state)
 {
   (void)state;
@@ -215,12 +215,12 @@ static void flat_and_long_boxes(void **state)
                             : (struct bvh_box){{x, -1e200, 0}, {x, 1e200, 1e-200}};
   }
   check(boxes, MANY);
-  for (size_t k = 0; k < MANY; k++) { /* as wide as double has it */
+  for (size_t k = 0; k < MANY; k++) { /* as wide as a double can be */
     const double y = random_unit(&random);
     boxes[k] = (struct bvh_box){{-1.7e308, y, -y}, {1.7e308, y, y * (double)(k % 2)}};
   }
   check(boxes, MANY);
-  for (size_t k = 0; k < MANY; k++) { /* centres the least possible number apart */
+  for (size_t k = 0; k < MANY; k++) { /* centres that differ by the least possible number */
     const double x = (double)(k % 5) * 0x1p-1074;
     boxes[k] = (struct bvh_box){{x, 0, 0}, {x, 0, 0}};
   }

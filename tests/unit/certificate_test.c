@@ -1,7 +1,8 @@
-/* The certificate at its limits: of all that certificate.h lets pass, what passes just so is tried on the functions that
- * turn as fast, and are off by as much, as is allowed. Of one row, with z = 0, that is the parabola
+/* The certificate at its limits: what certificate.h just lets pass is tried on functions that turn as fast, and are off
+ * by as much, as is allowed. In one row, with z = 0, that is the parabola
  *
- *     (M f)(w) = -(step + d) + (1 + k) w - turn w^2 / 2,   |d| <= sqrt 2 size, |k| <= 16 sqrt 2 size, |turn| <= bend. */
+ *     (M f)(w) = -(step + d) + (1 + k) w - turn w^2 / 2,   |d| <= sqrt 2 size, |k| <= 16 sqrt 2 size, |turn| <= bend.
+ */
 #include "intersect/certificate.h"
 
 #include <math.h>
@@ -9,17 +10,17 @@
 
 #include "cmocka_test.h"
 
-/* Far more than all that passes, and far less than what is told apart. */
+/* The search starts far above all that passes. It ends, 2^-156 wide, far below all that is told apart. */
 #define LARGEST 0x1p100
 enum { HALVINGS = 256 };
 
-/* Roundings of the derivative: the k above is so many times what rounding makes of a value. */
+/* The error of the derivative, k above, in errors of a value. */
 enum { SLOPE_ERRORS = 16 };
 
-/* What rounding makes of a step where size is a row's Euclidean length times the error of both values. */
+/* The error of a step, if size is a row's Euclidean length times the error of both values. */
 #define SIZES sqrtl(2)
 
-/* How far the second derivatives of a plane polynomial are off, in errors of a value: 24 and 24, and twice 36. */
+/* The error of the second derivatives of a plane polynomial, in errors of a value: 24 and 24, and twice 36. */
 enum { SECOND_ERRORS = 120 };
 
 struct turning {
@@ -30,7 +31,7 @@ static bool step_passes(const struct turning *f, double step) { return certifica
 static bool size_passes(const struct turning *f, double size) { return certificate_holds(f->bend, f->step, size); }
 static bool turn_passes(const struct turning *f, double turn) { return certificate_alone(turn, f->size); }
 
-/* The largest x that passes; negative for none. */
+/* The largest x that passes; negative if none does. */
 static double limit(bool (*passes)(const struct turning *, double), const struct turning *f)
 {
   double low = 0, high = LARGEST;
@@ -43,8 +44,8 @@ static double limit(bool (*passes)(const struct turning *, double), const struct
   return low;
 }
 
-/* Whether the parabola has one root within 2 (step + size) of 0, and not too far from where the step went; *away: how far
- * the root is from 0. */
+/* Whether the parabola has exactly one root within 2 (step + size) of 0, and that within its radius of where the step
+ * went. *away: its distance from 0. */
 static bool has_one_root(const struct turning *f, long double d, long double k, long double turn, long double *away)
 {
   const long double value = f->step + d, slope = 1 + k, square = slope * slope - 2 * turn * value;
@@ -56,7 +57,7 @@ static bool has_one_root(const struct turning *f, long double d, long double k, 
          fabsl(first - f->step) <= certificate_radius((long double)f->bend, f->step, f->size);
 }
 
-/* Whether another row, with a bend and a size of its own, is within its radius at a root that is so far away. */
+/* Whether another row, with its own bend and size, is within its radius at a root at this distance. */
 static bool row_is_near(const struct turning *f, long double away, long double row_bend, long double row_size)
 {
   const long double off = SIZES * (row_size + SLOPE_ERRORS * row_size * away) + row_bend * away * away / 2;
@@ -100,14 +101,14 @@ static void what_passes_has_one_root(void **state)
 
 /* ---- two rows ---- */
 
-/* (M f)(w) of two parameters: M's rows point along `row`, and are the longer one times `length` long. */
+/* (M f)(w) of two parameters. M's rows have the directions `row`, and `length` times the longer one's length. */
 struct surface {
   struct turning longer;
   long double row[2][2], length[2], step[2];
-  long double error[2], slope[2], form[3]; /* signs of what rounding makes of values and slopes; shares of turn */
+  long double error[2], slope[2], form[3]; /* signs of the errors of values and slopes; shares of turn */
 };
 
-/* The root, by Newton's method; false where there is none near. */
+/* Finds the root by Newton's method; false if there is none near. */
 static bool surface_root(const struct surface *f, long double w[2])
 {
   const long double *h = f->form;
@@ -130,7 +131,7 @@ static bool surface_root(const struct surface *f, long double w[2])
   return fmaxl(fabsl(w[0]), fabsl(w[1])) <= 2 * ((long double)f->longer.step + f->longer.size);
 }
 
-/* The next digit of *n, of so many, which is taken off. */
+/* Takes the last digit off *n, in this base. */
 static int digit(int *n, int base)
 {
   const int last = *n % base;
@@ -142,7 +143,7 @@ static int sign(int *n) { return digit(n, 2) ? 1 : -1; }
 
 enum { SURFACES = 4 * 3 * 4 * 4 * 64 };
 
-/* The number-th of SURFACES that pass with its longer row. */
+/* Surface `number` of the SURFACES whose longer row just passes. */
 static struct surface surface_of(const struct turning *longer, int number)
 {
   static const long double forms[][3] = {{1, 0, 0}, {0, 0.5L, 0}, {0.25L, 0.25L, 0.25L}, {0.5L, 0, -0.5L}};
@@ -158,7 +159,7 @@ static struct surface surface_of(const struct turning *longer, int number)
   return f;
 }
 
-/* The largest part of its radius that the root of any of them is from where the step went. */
+/* The largest distance, over all of them, of the root from where the step went, in radii. */
 static long double try_surfaces(const struct turning *longer)
 {
   long double most = 0;
@@ -187,13 +188,13 @@ static void what_passes_of_two_rows_is_near(void **state)
     }
   }
   assert_true(most <= 1);
-  assert_true(most > 0.5L); /* the limits are come near to */
+  assert_true(most > 0.5L); /* the limits are nearly reached */
 }
 
 /* ---- no other ---- */
 
-/* From a root, where the slope is 1 or as little as rounding lets it be, f = w - turn w^2 / 2 is back at 0 at w = 2 / turn: over a leaf of
- * length 1 that is behind its end where turn is below 2. */
+/* From a root, where the slope is 1 or as small as rounding allows, f = w - turn w^2 / 2 returns to 0 at w = 2 / turn.
+ * That is beyond a leaf of length 1 if turn is below 2. */
 static void what_passes_is_alone(void **state)
 {
   (void)state;

@@ -40,7 +40,7 @@ static void wrong_lists_are_refused(void **state)
   }
 }
 
-/* What the solver did is measured where any channel tells of it. */
+/* The solver's work is measured if any channel shows it. */
 static void one_channel_is_enough(void **state)
 {
   (void)state;

@@ -31,7 +31,7 @@ static struct chart_point point(enum family family, double ns, double error, siz
   return p;
 }
 
-/* The values that the figure of these points is drawn from, to be freed; NULL where memory is short. */
+/* The values that the figure of these points is drawn from. The caller frees them. NULL if memory is short. */
 static json_t *values_of(struct chart_point *points, size_t count)
 {
   double yard[RAY_KINDS] = {0};
@@ -53,7 +53,7 @@ static json_t *figure_of(struct chart_point *points, size_t count)
   return values;
 }
 
-/* Each number of a point, all different, under its name; a solver's choices by their words; a peer has none. */
+/* Each number of a point, all different, stands under its name; a solver's choices are words; a peer has none. */
 static void numbers_are_in_their_place(void **state)
 {
   (void)state;
@@ -82,7 +82,7 @@ static void numbers_are_in_their_place(void **state)
   const json_t *peer = json_array_get(all, 1);
   assert_true(json_is_null(json_object_get(peer, "method")) && json_is_null(json_object_get(peer, "shadow")));
   assert_int_equal(json_array_size(json_object_get(values, "first")),
-                   1); /* the default, though it is not on the front */
+                   1); /* the default's, although it is not on the front */
   expect_json(json_object_get(values, "scene"), "\"scene\"");
   json_decref(values);
   points[0].options.basis = BASIS_BERNSTEIN, points[0].options.polish = true, points[0].options.split = 0;
@@ -96,8 +96,8 @@ static void numbers_are_in_their_place(void **state)
 
 static double number(const json_t *from, const char *key) { return json_number_value(json_object_get(from, key)); }
 
-/* A family's points that are all right come first, with its title; those that are not are hollow, and have the title
- * where no others have it. */
+/* The points of a family that are all right come first, with its title. The others are hollow, and have the title only
+ * if there are no such points. */
 static void each_family_is_titled_once(void **state)
 {
   (void)state;
@@ -121,7 +121,7 @@ static void each_family_is_titled_once(void **state)
   json_decref(values);
 }
 
-/* From the most exact to the fastest; pale where one of the two is not all right. */
+/* From the most exact point to the fastest; pale if one of the two is not all right. */
 static void steps_join_the_front(void **state)
 {
   (void)state;
@@ -132,13 +132,13 @@ static void steps_join_the_front(void **state)
   const json_t *steps = json_object_get(values, "steps"), *pale = json_object_get(values, "pale_steps");
   assert_true(json_array_size(steps) == 1 && json_array_size(pale) == 1);
   const json_t *first = json_array_get(steps, 0), *second = json_array_get(pale, 0);
-  assert_true(number(first, "x1") == 1e-17 && number(first, "y1") == 100); /* no error has no place on the axis */
+  assert_true(number(first, "x1") == 1e-17 && number(first, "y1") == 100); /* the axis has no place for an error of 0 */
   assert_true(number(first, "x2") == 1e-5 && number(first, "y2") == 50);
   assert_true(number(second, "x1") == 1e-5 && number(second, "x2") == 0.1);
   json_decref(values);
 }
 
-/* A label that would stand on one before it stands to the right, and on two farther to the right. */
+/* A label that would overlap an earlier one moves to the right; if that place is taken, too, farther. */
 static void labels_make_way(void **state)
 {
   (void)state;

@@ -35,7 +35,7 @@ static void test_front(void **state)
   for (size_t k = 0; k < count; k++) assert_int_equal(points[k].front, expected[k]);
 }
 
-/* What noise alone decides goes to the first; what it does not decide stays. */
+/* Of points that differ only by noise the first is on the front. A greater difference counts. */
 static void test_front_noise(void **state)
 {
   (void)state;
@@ -53,7 +53,7 @@ static void test_front_noise(void **state)
   assert_true(!points[0].front && !points[1].front && points[2].front && !points[3].front);
 
   struct chart_point beaten[] = {
-    point(100, 1e-15), /* beaten by the next, so it does not stand for the last, whose quartiles it shares */
+    point(100, 1e-15), /* beaten by the next, so it cannot stand for the last one, which shares its quartiles */
     point(80, 1e-15),
     point(70, 1e-5),
   };
@@ -64,7 +64,7 @@ static void test_front_noise(void **state)
   assert_true(!beaten[0].front && beaten[1].front && !beaten[2].front); /* the last is no faster than the second */
 }
 
-/* Times follow the yardstick: what was measured while the machine was half as fast is halved. */
+/* Times are in units of the yardstick: those measured while the machine was half as fast are halved. */
 static void test_level(void **state)
 {
   (void)state;
@@ -98,18 +98,18 @@ static void test_measure(void **state)
     const struct timing *t = &time[k][RAYS_CAMERA];
     assert_true(t->least > 0 && t->least <= t->lower && t->lower <= t->median && t->median <= t->upper &&
                 t->upper <= t->most);
-    assert_true(isnan(time[k][RAYS_SHADOW].median)); /* there are no rays of the kind */
+    assert_true(isnan(time[k][RAYS_SHADOW].median)); /* there are no shadow rays */
     assert_true(calls[k][RAYS_CAMERA] >= 6 && calls[k][RAYS_SHADOW] == 0);
   }
   assert_true(time[0][RAYS_CAMERA].ratio == 1);
   assert_int_equal(measure_rounds(runners, 2, counts, 1, NULL, time), STATUS_OK);
   const double median[2] = {time[0][RAYS_CAMERA].median, time[1][RAYS_CAMERA].median};
-  assert_true(fabs(time[1][RAYS_CAMERA].ratio * median[0] / median[1] - 1) < 1e-12); /* to the first one */
+  assert_true(fabs(time[1][RAYS_CAMERA].ratio * median[0] / median[1] - 1) < 1e-12); /* relative to the first one */
   atomic_int stop = 1;
   assert_int_equal(measure_rounds(runners, 2, counts, 5, &stop, time), STATUS_INTERRUPTED);
 }
 
-/* The truth is known beyond doubles: a third of the way. */
+/* The truth, a third of the way, is known beyond double precision. */
 static void test_truths(void **state)
 {
   (void)state;
@@ -166,12 +166,13 @@ static void test_judge(void **state)
   assert_true(j.median == 0x1p-55);
   assert_true(j.max == 0.5 && j.p99 == 0.5);
   assert_true(j.p99_of_all == 1);
-  /* Where nothing is there to be hit, who invents a hit has no error, and no place on the front. */
+  /* Where nothing can be hit, an invented hit leaves no error, and no place on the front. */
   judge_answers(2, truths + 5, answers + 5, errors, &j);
   assert_true(j.hits == 0 && j.invented == 1 && isnan(j.p99_of_all));
 }
 
-/* What is lost, invented or wrong counts as an error of 1, no more; who knows no patches names no other one. */
+/* A hit that is lost, invented or wrong counts as an error of 1, no more. A peer that knows no patches never has
+ * another patch. */
 static void test_judge_errors(void **state)
 {
   (void)state;
@@ -208,12 +209,12 @@ static void test_judge_occluded(void **state)
   assert_true(j.lost == 0 && j.invented == 2);
 }
 
-/* All rays are the pixels' own, each once, when all are wanted; fewer are whole strips, spread over the picture. */
+/* All rays are the pixels' own, each once, if all are wanted. Fewer are whole strips, spread over the picture. */
 static void test_rays(void **state)
 {
   (void)state;
   const struct scene scene = {.camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
-  enum { WIDTH = 70, HEIGHT = 45 }; /* no multiple of a tile's side, nor of a packet's */
+  enum { WIDTH = 70, HEIGHT = 45 }; /* multiples neither of a tile's side nor of a packet's */
   struct arena *arena = arena_create();
   struct ray_list list;
   assert_int_equal(rays_of_camera(&scene, WIDTH, HEIGHT, WIDTH * HEIGHT, arena, &list), STATUS_OK);
@@ -242,8 +243,8 @@ static void test_rays(void **state)
   arena_destroy(arena);
 }
 
-/* Packet by packet one light after the other, none for a shadowless one. A run of shadow rays begins with the first of
- * them, though the run's first packets of camera rays may send none. */
+/* Shadow rays go packet by packet, one light after the other, none to a shadowless one. A run of them begins with the
+ * first packet of camera rays that sends some. */
 static void test_shadow_rays(void **state)
 {
   (void)state;
@@ -272,8 +273,8 @@ static void test_shadow_rays(void **state)
   arena_destroy(arena);
 }
 
-/* The first is the default; all are different. For each power of the tolerance there are polish and no polish, of the
- * three solvers of all roots both bases, both starts and the paper's forms as well; and whole patches, from each
+/* The first is the default, and all are different. Each power of the tolerance comes with polish and without; for the
+ * three solvers of all roots, with both bases, both starts and the paper's forms; and with whole patches, from each
  * start. */
 static void test_sweep(void **state)
 {

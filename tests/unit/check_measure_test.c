@@ -9,7 +9,7 @@
 
 enum { MOST_PIXELS = 1200 };
 
-/* What POV-Ray answers, and what it was asked last. */
+/* POV-Ray's answers, and the last question to it. */
 static float their_picture[3 * MOST_PIXELS];
 static double their_distance[MOST_PIXELS];
 static unsigned char their_mask[MOST_PIXELS];
@@ -39,7 +39,7 @@ enum status __wrap_povray_ask(struct povray *povray, const struct scene *scene, 
   return STATUS_OK;
 }
 
-/* The scene's own text gives another picture. */
+/* The scene's own text gives a different picture. */
 enum status __wrap_povray_render_file(struct povray *povray, const char *path, const char *const *folders,
                                       struct povray_picture *out);
 enum status __wrap_povray_render_file(struct povray *povray, const char *path, const char *const *folders,
@@ -63,7 +63,7 @@ static const struct listener nobody;
 static struct check_request request;
 static struct check_pixel pixels[MOST_PIXELS];
 
-/* A check of a picture of that size, black, of which every pixel is hit at distance 1, there as here. */
+/* A check of a black picture of this size. Every pixel is hit at distance 1, by both programs. */
 static struct check check_of(size_t width, size_t height, size_t grid)
 {
   request = (struct check_request){.width = width, .height = height, .grid = grid, .fail = {.each = 4.0 / 255}};
@@ -96,7 +96,7 @@ static struct check_row *measure_row(struct check *check)
   return &check->row[check->row_count - 1];
 }
 
-/* Whether that was the ray of the pixel's middle. */
+/* Whether this is the ray through the middle of the pixel. */
 static bool is_ray_of(const struct check *check, const struct ray *ray, size_t x, size_t y)
 {
   const double along = ((double)x + 0.5) / (double)check->request->width - 0.5,
@@ -104,7 +104,7 @@ static bool is_ray_of(const struct check *check, const struct ray *ray, size_t x
   return fabs(ray->direction[0] - along) < 1e-12 && fabs(ray->direction[1] - up) < 1e-12;
 }
 
-/* Beyond a limit, not at it; by what the pixels lie on. */
+/* A difference counts if it exceeds a limit, not if it equals it; it counts for what its pixel lies on. */
 static void differences_are_counted(void **state)
 {
   (void)state;
@@ -128,7 +128,7 @@ static void hits_of_one_alone_are_counted(void **state)
   (void)state;
   struct check check = check_of(5, 2, 0);
   pixels[0].hit.patch = pixels[1].hit.patch = HIT_NONE;
-  their_mask[1] = 0; /* a miss of both */
+  their_mask[1] = 0; /* both miss */
   for (int k = 5; k < 8; k++) their_mask[k] = 0;
   const struct check_row *row = measure_row(&check);
   assert_true(row->mask_theirs == 1 && row->mask_ours == 3);
@@ -136,7 +136,7 @@ static void hits_of_one_alone_are_counted(void **state)
   free_check(&check);
 }
 
-/* If wanted, POV-Ray reads the scene's own text, and its messages are passed on; with other steps it does not. */
+/* If asked for, POV-Ray reads the scene's own text, and its messages are passed on; but not with other steps. */
 static void own_text_is_as_written(void **state)
 {
   (void)state;
@@ -152,7 +152,8 @@ static void own_text_is_as_written(void **state)
   }
 }
 
-/* Of every second pixel and row, from the second on; and of one where the picture is smaller than the grid. */
+/* They are asked at every second pixel of every second row, from the second on; if the grid is larger than the picture,
+ * at one. */
 static void distances_are_those_of_a_grid(void **state)
 {
   (void)state;
@@ -179,11 +180,11 @@ static void distances_are_those_of_a_grid(void **state)
   free_check(&check);
 }
 
-/* The largest differences, none near one that is larger, and what POV-Ray sees there. */
+/* The largest differences, none near a larger one, each with what POV-Ray sees there. */
 static void the_worst_are_apart(void **state)
 {
   (void)state;
-  enum { WIDTH = 40 }; /* so that near is within 5 */
+  enum { WIDTH = 40 }; /* near: within 5 pixels */
   static const struct {
     size_t x, y;
     int code;
@@ -213,7 +214,8 @@ static bool is_color(const struct image *image, size_t x, size_t y, const float 
   return memcmp(image_pixel(image, x, y), color, 3 * sizeof *color) == 0;
 }
 
-/* Edges have their colours; what is over the limit has that of its edge, and is larger where it is off all. */
+/* Edges have their colours. A pixel over the limit has its edge's colour, and a larger spot if it lies off all
+ * edges. */
 static void the_map_shows_them(void **state)
 {
   (void)state;
@@ -239,7 +241,7 @@ static void the_map_shows_them(void **state)
 
 enum { EDGE_WIDTH = 5, EDGE_HEIGHT = 3 };
 
-/* The pixels show a surface over their columns and rows: its points and normals at x, the same in all rows. */
+/* The pixels show a surface, with z and slope at each column, the same in all rows. */
 static struct check surface_of(const double z[EDGE_WIDTH], const double slope[EDGE_WIDTH])
 {
   struct check check = check_of(EDGE_WIDTH, EDGE_HEIGHT, 0);
@@ -254,7 +256,7 @@ static struct check surface_of(const double z[EDGE_WIDTH], const double slope[ED
   return check;
 }
 
-/* Whether there is that edge on each side of what is between the second column and the third, and none elsewhere. */
+/* Whether this edge lies on both sides of the line between the second column and the third, and nowhere else. */
 static bool only_between(struct check *check, enum check_edge edge)
 {
   bool right = true;
@@ -267,7 +269,7 @@ static bool only_between(struct check *check, enum check_edge edge)
   return right;
 }
 
-/* A roof that falls off by `degrees` on each side of its ridge between the second column and the third. */
+/* A roof that falls by `degrees` on each side of its ridge, between the second column and the third. */
 static struct check roof_of(double degrees)
 {
   const double slope = tan(degrees * acos(-1.0) / 180), tilt[] = {-slope, -slope, slope, slope, slope};
@@ -298,7 +300,7 @@ static void edges_are_told_apart(void **state)
   for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) pixels[k].lights = k % EDGE_WIDTH < 2 ? 5 : 4;
   assert_true(only_between(&check, CHECK_EDGE_SHADOW));
 
-  /* two patches of one texture, two of two textures */
+  /* two patches of one texture, then of two textures */
   struct scene_patch patches[2] = {{.texture = 1}, {.texture = 1}};
   scene.patches = patches;
   for (uint32_t texture = 1; texture <= 2; texture++) {
@@ -309,7 +311,7 @@ static void edges_are_told_apart(void **state)
   }
   scene.patches = NULL;
 
-  /* a plane seen obliquely, and another one so far behind it that one could be the other's continuation */
+  /* a plane seen obliquely, and another one so far behind it that it could be the first one's continuation */
   static const double oblique[EDGE_WIDTH] = {10, 10.32, 10.64, 10.96, 11.28}, slope[] = {3.2, 3.2, 3.2, 3.2, 3.2};
   static const double behind[EDGE_WIDTH] = {10, 10.32, 20, 20.32, 20.64};
   check = surface_of(oblique, slope);
@@ -318,7 +320,7 @@ static void edges_are_told_apart(void **state)
   assert_true(only_between(&check, CHECK_EDGE_SILHOUETTE));
 }
 
-/* Beside a miss on all sides, also in corners; and more than another edge that is there. */
+/* They surround a miss, its corners included, and outrank another edge there. */
 static void silhouettes_are_round_a_miss(void **state)
 {
   (void)state;
@@ -340,7 +342,7 @@ static void silhouettes_are_round_a_miss(void **state)
   assert_true(only_between(&check, CHECK_EDGE_NONE));
 }
 
-/* The rectangle x0 <= x <= x1, |y| <= y1 at that depth. */
+/* The rectangle x0 <= x <= x1, |y| <= y1 at depth z. */
 static struct scene_patch rectangle(double x0, double x1, double y1, double z)
 {
   struct scene_patch patch = {0};
@@ -353,8 +355,8 @@ static struct scene_patch rectangle(double x0, double x1, double y1, double z)
   return patch;
 }
 
-/* The left half of the picture shows a rectangle before a lower one. It hides that from the second light and the third,
- * which is shadowless; the first one is behind both. */
+/* The left half of the picture shows a rectangle in front of a longer, lower one. The first light is behind both. The
+ * nearer rectangle hides the farther one from the others, of which the last is shadowless. */
 static void our_pixels_are_known(void **state)
 {
   (void)state;

@@ -10,7 +10,7 @@
 
 enum { WIDTH = 12, HEIGHT = 2, ROWS = 2, CROP = 15, MOST_PICTURES = 20 };
 
-/* What was written: the numbers, the page, and of each picture the first and the middle value. */
+/* What was written: the numbers, the page, and the first and the middle value of each picture. */
 static json_t *numbers;
 static char page[1 << 16];
 static struct {
@@ -38,7 +38,7 @@ void __wrap_page_png(const struct image *image, struct text_buffer *out)
 {
   *out = (struct text_buffer){0};
   assert_true(pictures < MOST_PICTURES);
-  text_buffer_format(out, "%zu", pictures); /* for what would be its bytes */
+  text_buffer_format(out, "%zu", pictures); /* in place of its bytes */
   picture[pictures].width = image->width;
   picture[pictures].first = image->value[0];
   picture[pictures++].middle = image_pixel(image, image->width / 2, image->height / 2)[0];
@@ -132,7 +132,7 @@ static void everything_is_in_its_place(void **state)
   expect_json(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "our_color"), "\"255 0 0\"");
   expect_json(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "their_color"), "\"191 191 191\"");
 
-  /* Ours, two of each row, the map; and of each worst pixel a crop of ours, of theirs and of their difference. */
+  /* Ours, two of each row, the map; then for each worst pixel a crop of ours, of theirs and of their difference. */
   static const float firsts[] = {0, 0.5f, 8, 0.75f, 12}, middles[] = {1, 0.75f, 4, 0, 0.75f, 12};
   assert_int_equal(pictures, 1 + 2 * ROWS + 1 + 2 * 3);
   for (size_t k = 0; k < 5; k++) assert_true(picture[k].width == WIDTH && picture[k].first == firsts[k]);
@@ -146,7 +146,7 @@ static void everything_is_in_its_place(void **state)
   image_destroy(&check.ours.picture);
 }
 
-/* Without distances, and where POV-Ray's finer pictures have no pixel that differs, there is no figure. */
+/* There is no figure without distances, or if none of POV-Ray's finer pictures has a differing pixel. */
 static void what_is_not_there_is_left_out(void **state)
 {
   (void)state;

@@ -1,11 +1,12 @@
-/* What two pixels beside each other lie on, told from what is known of their centres; and whether a picture is within its limits. */
+/* What two pixels beside each other lie on, given what is known of their centres; and whether a picture is within its
+ * limits. */
 #include <math.h>
 #include <string.h>
 
 #include "check/measure.h"
 #include "cmocka_test.h"
 
-/* A hit at that point, seen from the origin, with that normal, not of unit length. */
+/* A hit at this point, seen from the origin. The normal need not have unit length. */
 static struct check_pixel pixel(double x, double y, double z, double nx, double ny, double nz)
 {
   const double length = sqrt(nx * nx + ny * ny + nz * nz);
@@ -15,7 +16,7 @@ static struct check_pixel pixel(double x, double y, double z, double nx, double 
     .lights = 1};
 }
 
-/* What is found at both of them, in a row and in a column and in either order. */
+/* The edge between both, the same in a row and in a column, and in either order. */
 static enum check_edge between(struct check_pixel a, struct check_pixel b)
 {
   enum check_edge found = CHECK_EDGES;
@@ -36,9 +37,9 @@ static void one_surface_has_no_edge(void **state)
 {
   (void)state;
   assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_NONE);
-  /* nearly edge-on, where the distance changes by five times the step */
+  /* seen nearly edge-on: the distance changes by five times the step */
   assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.2), pixel(0.01, 0, 4.95, 1, 0, 0.2)), CHECK_EDGE_NONE);
-  /* curved, by some degrees a pixel */
+  /* curved by some degrees a pixel */
   assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 5.0005, 0.1, 0, -1)), CHECK_EDGE_NONE);
 }
 
@@ -49,13 +50,13 @@ static void what_stands_before_another_is_a_silhouette(void **state)
   miss.hit.patch = HIT_NONE, miss.distance = INFINITY;
   assert_int_equal(between(miss, miss), CHECK_EDGE_NONE);
   assert_int_equal(between(miss, pixel(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
-  /* out of the tangent plane */
+  /* off the tangent plane */
   assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 6, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
-  /* out of one of both tangent planes */
+  /* off one of the two tangent planes */
   assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 5, 0.5, 0, -1)), CHECK_EDGE_SILHOUETTE);
   /* near both tangent planes, but farther away than one surface would be */
   assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.2), pixel(0.01, 0, 9, 1, 0, 0.2)), CHECK_EDGE_SILHOUETTE);
-  /* farther away than the one would be that is seen less obliquely */
+  /* farther away than the surface of the less oblique pixel would be */
   assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.02), pixel(0.01, 0, 6, 1, 0, 0.3)), CHECK_EDGE_SILHOUETTE);
 }
 
@@ -71,7 +72,7 @@ static void shadows_and_creases_are_told_apart(void **state)
   assert_int_equal(between(lit, dark), CHECK_EDGE_SHADOW);
 }
 
-/* Of 1,000 pixels; each limit is passed by the least that is more, and not by as much as it is. */
+/* Of 1,000 pixels. Each limit is exceeded by the least possible amount, and not by its own value. */
 static void limits_are_what_they_are(void **state)
 {
   (void)state;

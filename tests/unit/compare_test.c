@@ -63,11 +63,11 @@ static void numbers_by_definition(void **state)
   assert_true(image_pixel(&difference, 1, 0)[0] == 1.5f && image_pixel(&difference, 1, 0)[1] == 0.75f);
   assert_true(image_pixel(&difference, 0, 1)[1] == 0);
   assert_int_equal(compare_count_over(&pair, 0.25), 1);
-  assert_int_equal(compare_count_over(&pair, 0.5), 0); /* over, not at */
+  assert_int_equal(compare_count_over(&pair, 0.5), 0); /* over, not equal */
   image_destroy(&difference);
 }
 
-/* Of equal differences the first is told, row by row. */
+/* Of equal differences the first one is reported, row by row. */
 static void the_first_worst_is_told(void **state)
 {
   const struct compare_pair pair = pair_of(state);
@@ -105,7 +105,7 @@ static void values_that_are_not_finite(void **state)
   struct compare_result result;
   image_pixel(pair.first, 1, 0)[0] = 0.5f;
   compare_images(&pair, &result, NULL, 1);
-  assert_true(fabs(result.psnr - 20 * log10(1 / result.rms)) < 1e-12); /* an infinity is no peak */
+  assert_true(fabs(result.psnr - 20 * log10(1 / result.rms)) < 1e-12); /* infinity does not count as a peak */
   image_pixel(pair.first, 1, 0)[0] = 0;
   image_pixel(pair.second, 0, 0)[1] = -INFINITY;
   image_pixel(pair.second, 1, 1)[1] = 0;

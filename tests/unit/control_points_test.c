@@ -10,7 +10,7 @@
 
 enum { SEED = 20240507, PATCHES = 2000 };
 
-/* A patch of any size up to some 2^20, anywhere within 2^20. */
+/* A patch of any size up to about 2^20, anywhere within 2^20. */
 static void random_patch(struct random *random, double P[4][4][3])
 {
   const double size = exp2(random_between(random, -20, 20));
@@ -19,7 +19,7 @@ static void random_patch(struct random *random, double P[4][4][3])
   for (int n = 0; n < 48; n++) P[n / 12][n / 3 % 4][n % 3] = middle[n % 3] + size * random_between(random, -1, 1);
 }
 
-/* The largest difference of neighbours in coordinate k, of the three along a row or across. */
+/* The largest difference in coordinate k of neighbours along a row or across rows. */
 static double largest_step(double P[4][4][3], int k)
 {
   double most = 0;
@@ -29,8 +29,8 @@ static double largest_step(double P[4][4][3], int k)
   return most;
 }
 
-/* Weights are off by 5 roundings, differences and products by one each, sums of four by 3; of three differences, whose
- * weights are 3 in sum and off by 3, by 3 more: 17 each, 51 in all. */
+/* Errors in roundings: 5 of a weight, 1 each of a difference and a product, 3 of a sum of four; of three differences,
+ * whose weights sum to 3 and are off by 3, 3 more: 17 each, 51 in all. */
 static void assert_tangents(double P[4][4][3], double u, double v)
 {
   double du[3], dv[3];
@@ -93,7 +93,7 @@ static void test_range(void **state)
   }
 }
 
-/* Exact: nothing is lost between a coordinate and its rest. */
+/* Asserts that a coordinate and its rest are exact: nothing is lost between them. */
 static bool assert_frame(points_frame_function *frame, double P[4][4][3], const double center[3], double unit)
 {
   double x[3][4][4], rest[3][4][4];
@@ -111,7 +111,7 @@ static bool assert_frame(points_frame_function *frame, double P[4][4][3], const 
   return told;
 }
 
-/* Whole numbers leave nothing; one number that is not one leaves something, wherever it stands. */
+/* Whole numbers leave no rest. One number that is not whole leaves one, wherever it stands. */
 static void test_frame(void **state)
 {
   (void)state;

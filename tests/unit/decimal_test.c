@@ -21,7 +21,7 @@ static uint64_t next_random(uint64_t *state)
   return *state * UINT64_C(0x2545F4914F6CDD1D);
 }
 
-/* A random sign-free mantissa times 2^binary. */
+/* A random mantissa, without sign, times 2^binary. */
 static double random_double(uint64_t *state, int binary)
 {
   return ldexp((double)(next_random(state) >> 11 | UINT64_C(1) << 52), binary - 52);
@@ -30,7 +30,7 @@ static double random_double(uint64_t *state, int binary)
 static void expect_digits(double value, int count, uint64_t digits, int exponent)
 {
   char text[64], ours[64];
-  /* "%.*e" gives d.ddd; its point may be any character, so compare digits and exponent apart. */
+  /* "%.*e" writes d.ddd; the point may be any character. So digits and exponent are compared apart. */
   snprintf(text, sizeof text, "%.*e", count - 1, value);
   snprintf(ours, sizeof ours, "%" PRIu64, digits);
   char theirs[64];
@@ -120,10 +120,11 @@ static void doubles_are_strtods(void **state)
 static void halfway_cases(void **state)
 {
   (void)state;
-  /* Integers half way between two doubles, one less and one more; and tens of them that a division brings back. */
+  /* Integers half way between two doubles, and one less and one more; also times powers of ten that a division removes
+   * again. */
   for (int bits = 54; bits <= 63; bits++) {
     for (uint64_t odd = 0; odd < 4; odd++) {
-      const uint64_t unit = UINT64_C(1) << (bits - 53); /* last place of a double of that size, times 2 */
+      const uint64_t unit = UINT64_C(1) << (bits - 53); /* twice the last place of a double of this size */
       const uint64_t middle = (UINT64_C(1) << bits) + odd * unit + unit / 2;
       for (int step = -1; step <= 1; step++) {
         const uint64_t digits = middle + (uint64_t)(int64_t)step;

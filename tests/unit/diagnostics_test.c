@@ -14,7 +14,7 @@ enum { LONG_NAME = 300 };
 static const char SAID[] = "'loaction' is what a message begins with, which takes more than is left of the room that a "
                            "long name has made, and it goes on so that it is asked for again and again and again";
 
-static long left; /* blocks that are given before there are no more; negative: all are */
+static long left; /* this many blocks are given before memory runs out; negative: all */
 
 static void *resize(void *context, void *block, size_t size)
 {
@@ -44,7 +44,7 @@ static void keep(void *context, const char *text, size_t length)
   told->text[length] = '\0';
 }
 
-/* Whether it was told with its place. */
+/* Whether the message has its place. */
 static bool told_whole(const struct told *told, const char *name)
 {
   const struct diagnostics_parts *parts = &told->diagnostics.parts;
@@ -92,7 +92,7 @@ static void nothing_said_is_lost(void **state)
   }
 }
 
-/* A line of a stream is told by its number in the stream, of which nothing else need be there. */
+/* A line of a stream is reported by its number in the stream, although the rest of the stream is not there. */
 static void lines_before_a_text_count(void **state)
 {
   (void)state;
@@ -113,7 +113,7 @@ static void keep_all(void *context, const char *text, size_t length)
   memcpy(told->text + before, text, length);
 }
 
-/* Behind the last that is shown a line says so, once; more are only counted, errors and warnings each for themselves. */
+/* After the last that is shown one line says so. More are only counted, errors and warnings separately. */
 static void so_many_are_shown(void **state)
 {
   (void)state;
@@ -134,7 +134,7 @@ static void so_many_are_shown(void **state)
   assert_true(told.diagnostics.error_count == 23 && told.diagnostics.warning_count == 23);
 }
 
-/* What UTF-8 is, by the edges of its table (RFC 3629, section 4). */
+/* Well-formed UTF-8, at the edges of its table (RFC 3629, section 4). */
 static void characters_are_well_formed(void **state)
 {
   (void)state;

@@ -13,7 +13,7 @@ enum { CASES = 200000, SEED = 20240501 };
 
 static quad value(struct double_double a) { return (quad)a.hi + (quad)a.lo; }
 
-/* A number of either sign between 2^-40 and 2^40, now and then a power of two. */
+/* A number of either sign between 2^-40 and 2^40, sometimes a power of two. */
 static double some(struct random *random)
 {
   const int exponent = (int)(random_bits(random) % 81) - 40;
@@ -36,14 +36,15 @@ static void sums_and_products_of_two_are_exact(void **state)
   for (int n = 0; n < CASES; n++) {
     const double a = some(&random), b = n % 3 ? some(&random) : -a * (1 + 0x1p-52 * (double)(random_bits(&random) % 4));
     const struct double_double sum = dd_two_sum(a, b), product = dd_two_product(a, b);
-    /* Sums of exponents up to 80 apart and products fit 113 bits only where the exponents are near: skip the others. */
+    /* The sum fits 113 bits only if the exponents are near each other (they are up to 80 apart), the product always
+     * does. */
     if (fabs(a) < 0x1p55 * fabs(b) && fabs(b) < 0x1p55 * fabs(a)) assert_true(value(sum) == (quad)a + (quad)b);
     assert_true(sum.hi == a + b && normal(sum));
     assert_true(value(product) == (quad)a * (quad)b && normal(product));
   }
 }
 
-/* The sum of the operands' sizes, not the result's, carries the error where they cancel: the low parts are added in
+/* If operands cancel, the error is relative to the sum of their sizes, not to the result's: the low parts are added in
  * one double. */
 static void operations_are_right_to_their_bound(void **state)
 {
@@ -65,8 +66,8 @@ static void operations_are_right_to_their_bound(void **state)
   for (int k = 0; k < 3; k++) assert_true(worst[k] <= FEW);
 }
 
-/* Sums that cancel to the last bits of the leading doubles keep the relative error too (the accurate sum of two
- * pairs). */
+/* Sums that cancel down to the last bits of the leading doubles have a small relative error too (the accurate sum of
+ * two pairs). */
 static void cancelling_sums_are_right(void **state)
 {
   (void)state;
@@ -77,7 +78,7 @@ static void cancelling_sums_are_right(void **state)
     struct double_double b = dd_negate(a);
     b.hi *= 1 + 0x1p-52 * (double)(random_bits(&random) % 3);
     b = dd_add(b, (struct double_double){a.lo * random_unit(&random), 0});
-    /* A pair may need more than quadruple precision's bits; its halves, cancelled first, do not. */
+    /* A pair may need more bits than quadruple precision has. Its halves, cancelled first, do not. */
     const quad want = ((quad)a.hi + b.hi) + ((quad)a.lo + b.lo);
     const struct double_double got = dd_add(a, b);
     if (want == 0) assert_true(got.hi == 0 && got.lo == 0);

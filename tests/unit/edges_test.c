@@ -22,15 +22,15 @@ static double *border_point(net P, int border, int k)
   return border == 0 ? P[0][k] : border == 1 ? P[3][k] : border == 2 ? P[k][0] : P[k][3];
 }
 
-/* Makes border `to` of Q run along border `from` of P, backwards if asked. Corners of Q's other borders change with
- * it. */
+/* Makes border `to` of Q run along border `from` of P, backwards if asked. This changes corners of Q's other
+ * borders. */
 static void glue(net P, int from, net Q, int to, bool reversed)
 {
   for (int k = 0; k < 4; k++)
     memcpy(border_point(Q, to, k), border_point(P, from, reversed ? 3 - k : k), 3 * sizeof(double));
 }
 
-/* One worker after the other, as long as all goes well. */
+/* Runs one worker after the other, until one fails. */
 static enum status in_turn(size_t count, team_work *work, void *context)
 {
   enum status status = STATUS_OK;
@@ -38,7 +38,7 @@ static enum status in_turn(size_t count, team_work *work, void *context)
   return status;
 }
 
-/* Also by teams, and by one so large that what belongs to a worker does not fit in its part of the table. */
+/* Also uses teams, and one so large that a worker's share does not fit in its part of the table. */
 static void match(net *nets, size_t count, struct edge_neighbour *out)
 {
   static const struct team teams[] = {{in_turn, 2}, {in_turn, 64}};
@@ -105,7 +105,7 @@ static void a_patch_may_meet_itself(void **state)
     assert_pair(n, 0, 0, 0, 1, reversed);
     assert_int_equal(alone(n, 1), 2);
   }
-  net P[1]; /* u = 0 is v = 0: they share a corner as well */
+  net P[1]; /* u = 0 is v = 0: they also share a corner */
   struct edge_neighbour n[4];
   random_net(&random, P[0]);
   glue(P[0], 0, P[0], 2, false);
@@ -127,7 +127,7 @@ static void more_than_two_at_one_border_are_none(void **state)
   }
 }
 
-/* Nobody's neighbour, nor in the way of those that are. */
+/* Patches that are left out have no neighbours, and do not hide those of others. */
 static void those_left_out_are_alone(void **state)
 {
   (void)state;
@@ -159,7 +159,7 @@ static void collapsed_borders_are_none(void **state)
   assert_int_equal(alone(n, 2), 8);
 }
 
-/* One last bit apart is apart. */
+/* A difference in one last bit is a difference. */
 static void nearly_equal_is_not_equal(void **state)
 {
   (void)state;
@@ -211,7 +211,7 @@ static void zeros_of_either_sign_are_equal(void **state)
     assert_int_equal(here->patch, PAIRS + p);
     assert_int_equal(here->border, p / 4 % 4);
     assert_int_equal(there->patch, p);
-    /* A border that reads the same in both directions may be called either. */
+    /* For a border that reads the same in both directions either answer is right. */
     bool palindrome = true;
     for (int c = 0; c < 3; c++)
       for (int k = 0; k < 2; k++)
@@ -222,7 +222,8 @@ static void zeros_of_either_sign_are_equal(void **state)
   assert_int_equal(alone(n, 2 * PAIRS), 6 * PAIRS);
 }
 
-/* A grid of patches, its nets inside larger records, in a shuffled order: every inner border is found, no outer one. */
+/* A grid of patches, with nets inside larger records and in a shuffled order. Every inner border is found, and no outer
+ * one. */
 static void a_grid_with_a_stride(void **state)
 {
   (void)state;

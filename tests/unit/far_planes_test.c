@@ -9,8 +9,8 @@
 
 enum { SEED = 20240607, RAYS = 2000 };
 
-/* (q_i d_k - q_k d_i)/d_k in wide arithmetic, q the origin in the frame of the patch: right to a hundredth of what doubles make
- * of it. */
+/* (q_i d_k - q_k d_i)/d_k in wide arithmetic, q being the origin in the patch's frame. Right to a hundredth of the
+ * error in doubles. */
 static wide moment(const struct model_patch *patch, const struct ray *ray, int i, int k)
 {
   const double *d = ray->direction, *o = ray->origin;
@@ -18,8 +18,8 @@ static wide moment(const struct model_patch *patch, const struct ray *ray, int i
   return (qi * d[k] - qk * d[i]) / d[k] / patch->scale;
 }
 
-/* What a plane is off by, in units of its bound, where the ray comes from 2^65 patches away: the patch is where rounding has left
- * the ray. */
+/* The error of a plane in doubles, in units of its bound, if the ray comes from 2^65 patches away. The patch lies where
+ * rounding has put the ray. */
 static double off_in_doubles(struct random *random)
 {
   struct model_patch patch = {.scale = 0x1p-40};
@@ -37,14 +37,14 @@ static double off_in_doubles(struct random *random)
   return off / local.error;
 }
 
-/* A whole number of so many bits, or fewer, of either sign; odd. */
+/* An odd number of at most this many bits, of either sign. */
 static double whole(struct random *random, int bits)
 {
   return 2 * floor(ldexp(random_between(random, -0.5, 0.5), bits)) + 1;
 }
 
-/* The same where the ray passes a corner of the patch, exactly, as all coordinates have few bits, and that is far from the scene's
- * origin. */
+/* The same in fixed point. The ray passes exactly through a corner of the patch, since all coordinates have few bits,
+ * and the patch is far from the scene's origin. */
 static double off_in_fixed_point(struct random *random)
 {
   double P[4][4][3], values[2][3], row[2][2] = {{1, 0}, {0, 1}};

@@ -9,7 +9,7 @@
 
 enum { CASES = 200000, SEED = 20261122 };
 
-/* Of all its bits, below 2^`exponent` in size. */
+/* A number with all its bits, below 2^`exponent` in size. */
 static fixed some(struct random *random, int exponent)
 {
   const fixed_bits bits = (fixed_bits)random_bits(random) << 64 | random_bits(random);
@@ -25,7 +25,7 @@ static void products_are_right_to_two_units(void **state)
   struct random random = {SEED};
   double worst = 0;
   for (int n = 0; n < CASES; n++) {
-    /* of small ones quadruple precision has all the digits that count */
+    /* quadruple precision has all the digits of small ones that count */
     const int i = (int)(random_bits(&random) % 60), j = (int)(random_bits(&random) % 60);
     const fixed a = some(&random, -i - 2), b = some(&random, -j - 2);
     const quad off = value(fixed_product(a, b)) - value(a) * value(b);
@@ -33,7 +33,7 @@ static void products_are_right_to_two_units(void **state)
     assert_true(fixed_product(a, b) == fixed_product(b, a) && fixed_product(-a, b) == -fixed_product(a, b));
   }
   assert_true(worst < 2 && worst > 0.5);
-  /* Of large ones, by powers of two and by whole numbers: those are exact. */
+  /* Large ones by powers of two and by whole numbers, which are exact. */
   for (int n = 0; n < CASES; n++) {
     const fixed a = some(&random, 8), half = fixed_from(0.5), three = fixed_from(3);
     assert_true(fixed_product(a, half) == a / 2);

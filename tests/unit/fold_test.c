@@ -22,7 +22,7 @@ static double cubic_at(const struct cubic *f, double x)
   return f->low + x * (f->r[0] * f->r[1] + x * (-(f->r[0] + f->r[1]) / 2 + x / 3));
 }
 
-/* How many roots it has between -most and most. */
+/* The number of roots between -most and most. */
 static int roots_within(const struct cubic *f, double most)
 {
   const double at[4] = {-most, fmin(fmax(fmin(f->r[0], f->r[1]), -most), most),
@@ -32,7 +32,7 @@ static int roots_within(const struct cubic *f, double most)
   return roots;
 }
 
-/* As a, and y as b. */
+/* A box with f as a, and y as b. */
 static void box_make(const struct cubic *f, struct box *box)
 {
   const double c1 = f->r[0] * f->r[1], c2 = -(f->r[0] + f->r[1]) / 2, c3 = 1.0 / 3;
@@ -48,11 +48,11 @@ static void what_a_fold_tells_is_so(void **state)
   struct random random = {SEED};
   const double error[2] = {64 * UNIT_ROUNDOFF, 64 * UNIT_ROUNDOFF};
   int verdicts[3] = {0}, wrong = 0;
-  double most = 0; /* how far the box is bent: the second derivative of D beside its first one in the middle */
+  double most = 0; /* the largest bend of a box: the second derivative of D relative to its first one in the middle */
   for (int n = 0; n < CASES; n++) {
     const double far = random_bits(&random) % 2 ? 1 : 16, side = random_bits(&random) % 2 ? 1 : -1;
     struct cubic f = {{side * random_between(&random, 0, 1), side * random_between(&random, 0, far)}, 0};
-    /* a value at a fold or at an end of the box that is next to 0 */
+    /* make f nearly 0 at a fold or at an end of the box */
     const double at[4] = {f.r[0], f.r[1], -1, 1}, off = pow(10, -random_between(&random, 1, 8));
     f.low = -cubic_at(&f, at[random_bits(&random) % 4]) + (random_bits(&random) % 2 ? off : -off);
     struct box box;
@@ -76,8 +76,8 @@ static void what_a_fold_tells_is_so(void **state)
 
 /* ---- bent combinations ---- */
 
-/* a is a product of two lines, and b one of them, bent by a part of a: all of that line is roots. As long as both nets are off by
- * no more than their bounds it is not told that there is none; where they are off by more it is, as a rule. */
+/* a is the product of two lines; b is one of them, bent by a part of a; all of that line are roots. As long as both
+ * nets are within their bounds, they may not be said to have no root. If they are off by more, they mostly are. */
 static void what_a_bent_combination_tells_is_so(void **state)
 {
   (void)state;
@@ -90,7 +90,8 @@ static void what_a_bent_combination_tells_is_so(void **state)
     const double part = (random_bits(&random) % 2 ? 1 : -1) * pow(10, random_between(&random, -2, 3));
     const double slope = pow(10, random_between(&random, -3, 0));
     double product[4][4] = {{0}}, bent[4][4] = {{0}}, m[3];
-    const bool along = random_bits(&random) % 2; /* the other line is beside this one: a is extremal in the middle */
+    const bool along = random_bits(&random) %
+                       2; /* the other line is parallel to this one: a is extremal in the middle */
     for (int k = 0; k < 3; k++)
       m[k] = slope * (along ? (k > 0 ? line[k] : -line[k]) : random_between(&random, -1, 1) * (k > 0 ? 1 : middle));
     product[0][0] = m[0] * line[0], product[1][0] = m[0] * line[1] + m[1] * line[0];

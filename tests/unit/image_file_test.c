@@ -16,10 +16,11 @@
 
 enum { WIDTH = 5, HEIGHT = 3 };
 
-/* OpenImageIO turns codes into floats by a rounded factor and a rounded product: two units of the last place of 1. */
+/* OpenImageIO converts codes to floats with a rounded factor and a rounded product: two units in the last place of
+ * 1. */
 static const double FLOAT_SLACK = 0x1p-23;
 
-static char path[64]; /* of the file of the test that runs */
+static char path[64]; /* the file of the current test */
 
 static int make_path(void **state)
 {
@@ -45,7 +46,7 @@ static struct image picture(size_t channels, const char *const names[])
   return image;
 }
 
-/* Encodes, writes, reads back. */
+/* Encodes a picture, writes it and reads it back. */
 static struct image there_and_back(const struct image *image, const struct image_encoding *encoding)
 {
   unsigned char *bytes;
@@ -68,8 +69,8 @@ static struct image there_and_back(const struct image *image, const struct image
 
 static void *no_work(void *unused) { return unused; }
 
-/* The first of all tests: what threads OpenEXR takes are there when OpenImageIO is ready, so that a picture can be made where
- * none is to be had any more. None is: each would have a stack that no machine has room for. */
+/* Must be the first test. OpenEXR's threads exist once OpenImageIO is ready, so a picture can be made when no thread
+ * can be started any more. None can: each would need a stack larger than any machine's memory. */
 static void exr_is_made_without_new_threads(void **state)
 {
   (void)state;
@@ -124,14 +125,14 @@ static void encoded_values_take_no_curve(void **state)
   image_destroy(&image);
 }
 
-/* Colours as half, data as float, found by name whatever the order in the file. */
+/* Colours are kept as half, data as float, and found by name in whatever order the file has them. */
 static void exr_keeps_values_and_names(void **state)
 {
   (void)state;
   const char *const names[] = {"R", "G", "B", "depth", "normal.x"};
   struct image image = picture(5, names);
   image.channel[3].data = image.channel[4].data = true;
-  image.value[0] = 7.0f + 1.0f / 4096; /* 7 in half */
+  image.value[0] = 7.0f + 1.0f / 4096; /* rounds to 7 in half */
   image.value[3] = INFINITY;
   image.value[4] = -1.0f - 1.0f / (1 << 20);
   for (int bits = 16; bits <= 32; bits += 16) {
@@ -166,7 +167,7 @@ static bool end_soon(void *context, double part)
   return part < 0.5;
 }
 
-/* How far the file is, to its end; rows that are written apart are the picture. */
+/* Progress reaches the end of the file; rows that are written separately make the whole picture. */
 static void encoding_is_told(void **state)
 {
   (void)state;
@@ -193,7 +194,7 @@ static void encoding_is_told(void **state)
   image_destroy(&image);
 }
 
-/* Neither writing nor reading divides or multiplies by a channel that might be opacity. */
+/* Neither writing nor reading divides or multiplies by a channel that could be opacity. */
 static void no_channel_is_opacity(void **state)
 {
   (void)state;
@@ -215,7 +216,7 @@ static void no_channel_is_opacity(void **state)
   }
 }
 
-/* A crop knows where it stands, in either packing; its texts come back, others do not. */
+/* A crop keeps its place, packed either way. Its own texts come back, others do not. */
 static void exr_keeps_its_window_and_texts(void **state)
 {
   (void)state;
@@ -244,7 +245,7 @@ static void exr_keeps_its_window_and_texts(void **state)
   image_destroy(&image);
 }
 
-/* Which pixels are wanted, and how often that was asked. */
+/* How many areas are wanted, and how often this was asked. */
 struct question {
   size_t count, asked;
   enum status answer;
@@ -263,7 +264,7 @@ static enum status answer(void *context, const struct image *image, const struct
   return question->answer;
 }
 
-/* Those of the areas are read: of a file in tiles no others, of one in rows, or where all tiles are needed, all. */
+/* The areas' pixels are read. Of a file in tiles no others are; of one in rows, or if all tiles are needed, all are. */
 static void areas_of_a_picture_are_read(void **state)
 {
   (void)state;
@@ -296,14 +297,14 @@ static void areas_of_a_picture_are_read(void **state)
     }
     image_destroy(&back);
   }
-  question.answer = STATUS_INPUT; /* by whom is asked */
+  question.answer = STATUS_INPUT; /* fails if the one who is asked does */
   assert_int_equal(image_read_areas(path, &wanted, &back, message), STATUS_INPUT);
   assert_string_equal(message, "so it is");
   assert_true(back.value == NULL && back.width == 0);
   image_destroy(&image);
 }
 
-/* Pixels that lie outside the picture they say they are of, on any side, are a whole. */
+/* If pixels lie outside the picture that they claim to be part of, on any side, they are read as a whole picture. */
 static void exr_outside_its_picture_is_a_whole(void **state)
 {
   (void)state;
@@ -342,13 +343,14 @@ static void png_refuses_five_channels_and_none(void **state)
   image_destroy(&image);
 }
 
-/* A TIFF of two rows in one strip: what is in its tags, of which TIFF 6.0 says what each number means. */
+/* A TIFF of two rows in one strip: the values of its tags, which TIFF 6.0 explains. */
 struct tiff {
-  bool big; /* the first byte of a number is its largest */
+  bool big; /* numbers begin with their largest byte */
   unsigned columns, compression, photometric, samples, bytes;
 };
 
-/* Writes it, of bytes that are all 51, but for the last `lacking`. The last two of an entry are where the value begins. */
+/* Writes the file without its last `lacking` bytes; all pixels are 51. The last two bytes of an entry are where the
+ * value begins. */
 static void write_tiff(const struct tiff *tiff, size_t lacking)
 {
   enum { ENTRIES = 9, VALUE = 8 + 2 + 12 * ENTRIES + 4, MOST = 12 };
@@ -368,7 +370,7 @@ static void write_tiff(const struct tiff *tiff, size_t lacking)
   put_bytes(path, bytes, VALUE + tiff->bytes - lacking);
 }
 
-/* Two grey pixels. Where the file is cut off it is refused, though OpenImageIO makes up the pixels that are missing. */
+/* Two grey pixels. A file that is cut off is refused, although OpenImageIO would invent the missing pixels. */
 static void tiff_is_read_in_both_orders_of_bytes(void **state)
 {
   (void)state;
@@ -389,9 +391,9 @@ static void tiff_is_read_in_both_orders_of_bytes(void **state)
   }
 }
 
-/* OpenImageIO would answer what else is in memory: eight pixels whose colours are shared by four each, as the format has it
- * where nothing is said, 12 bytes for the 24 of pixels; and what is no zip, of which it says nothing where it reads more than
- * a row. */
+/* For such files OpenImageIO would return whatever else is in memory. One has eight pixels that share their colours by
+ * fours, the format's default, in 12 bytes where pixels have 24. The other is no zip; of that OpenImageIO says nothing
+ * when it reads more than a row. */
 static void tiff_without_the_bytes_of_its_pixels_is_refused(void **state)
 {
   (void)state;
@@ -428,7 +430,7 @@ static void unreadable_files_are_told(void **state)
   assert_string_equal(message, "it is no PNG, EXR, TIFF or JPEG");
 }
 
-/* A file of 65 bytes that asks for 60000 x 60000 pixels, as PNG's reader would give it. */
+/* A file of 65 bytes that asks PNG's reader for 60000 x 60000 pixels. */
 static void pictures_without_bounds_are_refused(void **state)
 {
   (void)state;
@@ -443,13 +445,13 @@ static void pictures_without_bounds_are_refused(void **state)
   assert_null(image.value);
 }
 
-/* Whether a size of the picture stands there: one that is damaged may take long, and is tested above. */
+/* Whether this byte belongs to a size of the picture. A damaged size may take long, and is tested above. */
 static bool is_size(const unsigned char *bytes, size_t size, size_t at)
 {
   if (bytes[0] == 137) return at >= 16 && at < 24;
   static const char *const windows[] = {"dataWindow", "displayWindow"};
   for (size_t k = 0; k < 2; k++) {
-    const size_t length = strlen(windows[k]) + strlen("box2i") + 2 + 4; /* with NULs, and the length of what follows */
+    const size_t length = strlen(windows[k]) + strlen("box2i") + 2 + 4; /* with NULs, and the length of the value */
     for (size_t n = 0; n + length + 16 <= size; n++)
       if (memcmp(bytes + n, windows[k], strlen(windows[k])) == 0 && at >= n + length && at < n + length + 16)
         return true;

@@ -14,7 +14,7 @@
 #include "cmocka_test.h"
 #include "lanes_main.h"
 
-/* Volatile, so that nothing is computed by the compiler. */
+/* Volatile, so that the compiler computes nothing. */
 static volatile double values[] = {
   0.0,
   -0.0,
@@ -43,7 +43,7 @@ static volatile double values[] = {
 };
 enum { VALUES = sizeof values / sizeof values[0], PAIRS = VALUES * VALUES, TRIPLES = PAIRS * VALUES };
 
-/* Lane l of row n holds combination n + l, so that every combination comes to every lane. */
+/* Lane l of row n holds combination n + l, so every combination comes to every lane. */
 static double first_value(int n) { return values[n % VALUES]; }
 static double second_value(int n) { return values[n / VALUES % VALUES]; }
 static double third_value(int n) { return values[n / PAIRS % VALUES]; }
@@ -65,7 +65,7 @@ static float_lanes float_row(double value(int), int n)
 static bool same_bits(double a, double b) { return memcmp(&a, &b, sizeof a) == 0; }
 static bool same_float_bits(float a, float b) { return memcmp(&a, &b, sizeof a) == 0; }
 
-/* The same number, signs of zero included, or both none: which NaN comes out of arithmetic is nobody's concern. */
+/* Whether both are the same number, signs of zero included, or both NaN. Which NaN does not matter. */
 static bool same(double a, double b) { return same_bits(a, b) || (isnan(a) && isnan(b)); }
 static bool same_float(float a, float b) { return same_float_bits(a, b) || (isnan(a) && isnan(b)); }
 
@@ -115,7 +115,7 @@ static void masks_are_bits(void **state)
   }
 }
 
-/* What the compiler makes of operators: arithmetic and comparisons, as bits of a mask. */
+/* What the compiler makes of operators: arithmetic, and comparisons, whose bits are a mask. */
 static void operators_are_scalar(void **state)
 {
   (void)state;
@@ -190,8 +190,8 @@ static void products_keep_their_error(void **state)
   }
 }
 
-/* Sums and products of doubles are exact; what is made of them is off by some roundings of its low part, a few
- * 2^-105. */
+/* Sums and products of doubles are exact. Results of further operations are off by some roundings of the low part, a
+ * few 2^-105. */
 #define DOUBLE_LANES_ERROR 0x1p-102
 
 static bool near(double hi, double lo, struct double_double want, double size)
@@ -231,7 +231,7 @@ static void double_lanes_are_double_doubles(void **state)
   }
 }
 
-/* Whichever lanes they belong to. */
+/* To whichever lanes they belong. */
 static void points_come_and_go(void **state)
 {
   (void)state;

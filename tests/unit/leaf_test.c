@@ -16,8 +16,8 @@ enum { SEED = 20261123, MOST_LEAVES = 32 * 32 };
 static const uint16_t splits[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {16, 16}, {32, 32}, {1, 64}, {64, 1}};
 enum { SPLITS = sizeof splits / sizeof *splits, KINDS = 8 };
 
-/* Of any shape; flat, so that second derivatives are 0; so thin that squares underflow; a border that is a point; all one
- * point; of few bits, so that cutting into a power of two is exact; on one line; so small that squares underflow. */
+/* Kinds: 0 any shape; 1 flat: second derivatives are 0; 2 so thin that squares underflow; 3 a border is a point; 4 all
+ * one point; 5 few bits: cutting into a power of two is exact; 6 on one line; 7 so small that squares underflow. */
 static void make_patch(struct random *random, int kind, struct model_patch *patch, double rest[3][4][4])
 {
   *patch = (struct model_patch){
@@ -38,7 +38,7 @@ static void make_patch(struct random *random, int kind, struct model_patch *patc
   }
 }
 
-/* Calls the test with patches of every kind, split in every way. */
+/* Calls the test with patches of every kind, split in each way. */
 typedef void patch_test(struct random *random, int kind, const struct model_patch *patch);
 
 static void for_patches(unsigned long seed, patch_test *test)
@@ -90,7 +90,7 @@ static void leaves_do_not_depend_on_their_neighbours(void **state)
   for_patches(0, leaves_of_any_company);
 }
 
-/* Of few bits nothing is left behind a coordinate's first bits, and both cut alike. */
+/* Coordinates of few bits leave no rest, so both ways of cutting agree exactly. */
 static void parts_as_cut_one_by_one(struct random *random, int kind, const struct model_patch *patch)
 {
   if (kind != 5) return;
@@ -121,7 +121,7 @@ static void parts_are_subnets(void **state)
 
 /* ---- what is known of a leaf ---- */
 
-/* The patch as it is, with its rest. */
+/* The exact patch, with its rest. */
 static void exact_nets(const struct model_patch *patch, struct quad_net out[3])
 {
   for (int k = 0; k < 3; k++)
@@ -185,7 +185,7 @@ static void leaves_are_their_parts_of_the_patch(void **state)
   assert_true(worst_slope <= 1 + 0x1p-40 && worst_slope > 0.5);
 }
 
-/* A point of the exact patch, in the leaf's parameters, as the forms of its slabs. */
+/* A point of the exact patch, at (u,v) of the leaf, in terms of its slabs' forms. */
 static void forms_at(const struct quad_net exact[3], const struct model_patch *patch, const struct leaf *leaf, double u,
                      double v, quad out[3])
 {
@@ -303,7 +303,7 @@ static void second_derivative_bounds_hold_and_are_near(void **state)
     }
   }
   print_message("largest second derivative / bound: %.6g at most, %.3g at least\n", worst, best);
-  assert_true(worst <= 1 + 1e-12); /* of the differences above */
+  assert_true(worst <= 1 + 1e-12); /* the error of differences of derivatives */
   assert_true(best > 0.2);
 }
 

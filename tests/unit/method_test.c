@@ -5,7 +5,7 @@
 
 #include "cmocka_test.h"
 
-/* What get reads, set writes; in the order of the table a block reads back as it was. */
+/* What get reads, set writes. Set in the order of the table, a block reads back unchanged. */
 static void items_round_trip(void **state)
 {
   (void)state;
@@ -26,7 +26,7 @@ static void items_round_trip(void **state)
   }
 }
 
-/* The paper's choices bring the paper's iteration, in whatever order they are made, unless a form is named. */
+/* The paper's choices select the paper's iteration, in whatever order they are made, unless a form is named. */
 static void form_follows_the_paper(void **state)
 {
   (void)state;
@@ -52,7 +52,7 @@ static void form_follows_the_paper(void **state)
       item->set(&said, choices[(first + k) % 4].value);
     }
     assert_true(solver_options_paper(&options.roots) && !solver_options_paper(&said.roots));
-    assert_true(form->get(&options) == 1.0); /* all but the split */
+    assert_true(form->get(&options) == 1.0); /* all choices but the split */
     options.split = 1;
     assert_true(form->get(&options) == 0.0);
     method_default(solver_find("aberth", 6), &said);
@@ -63,7 +63,7 @@ static void form_follows_the_paper(void **state)
   }
 }
 
-/* What follows from the rest is left out of the text; what does not fit is cut off between two words. */
+/* The text omits what follows from the rest. A text too long is cut off between two words. */
 static void text_says_what_differs(void **state)
 {
   (void)state;

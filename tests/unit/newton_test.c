@@ -8,10 +8,10 @@
 
 enum { SEED = 20261126, CASES = 600 };
 
-/* How far beside the leaf: just so far that a root may exist there. */
+/* As far beside the leaf as a root may exist. */
 #define BESIDE (LEAF_MARGIN - CERTIFICATE_REACH - 0x1p-12)
 
-/* A patch that is one leaf, next to a parallelogram. */
+/* Makes a patch that is one leaf, near a parallelogram. */
 static void make_patch(struct random *random, struct subject *s)
 {
   double along[2][3];
@@ -28,17 +28,17 @@ static void make_patch(struct random *random, struct subject *s)
   leaves_make(&s->patch, 0, 0, 1, &s->leaf);
 }
 
-/* A side of the leaf, in it or beside it. */
+/* A parameter on either side of the leaf, or in it. */
 static double place(struct random *random)
 {
   const int kind = (int)(random_bits(random) % 3);
   return kind == 0 ? -BESIDE : kind == 1 ? 1 + BESIDE : random_between(random, 0, 1);
 }
 
-/* Coefficients off by `error`, each the way that moves the value at (u,v) farthest. */
+/* Errors of coefficients, of size `error`, with the signs that move the value at (u,v) farthest. */
 static double off_at(int i, double u, double error) { return u < 0 || u > 1 ? (i % 2 ? -error : error) : error; }
 
-/* The polynomials of the exact ray in that lane over the leaf, whose points are off by so much. */
+/* The polynomials, over the leaf, of the exact ray in this lane, with points that are off by `error`. */
 static void truth_make(const struct subject *s, unsigned lane, const double at[2], const double error[3],
                        struct quad_net truth[2])
 {
@@ -68,7 +68,7 @@ static void make_ray(struct random *random, struct subject *s, const double at[2
   p->t_min[lane] = 0, p->t_max[lane] = INFINITY;
 }
 
-/* How far the lane's proven root, which was aimed at `at`, is off at most, as a part of its radii, where the points are off by
+/* How far the lane's proven root, which was aimed at `at`, is off at most, in its radii, if the points are off by
  * `error`. */
 static double farthest(const struct subject *s, const struct newton_root *root, unsigned lane, const double at[2],
                        double error)
@@ -125,7 +125,7 @@ static void a_proven_root_is_within_its_radii(void **state)
   assert_true(most > 0.25); /* not vacuous */
 }
 
-/* A patch that is one leaf, a bent fan from the pole at its border u = 0. */
+/* Makes a patch that is one leaf, a bent fan from the pole at its border u = 0. */
 static void make_fan(struct random *random, struct subject *s)
 {
   double along[2][3];
@@ -143,7 +143,7 @@ static void make_fan(struct random *random, struct subject *s)
   leaves_make(&s->patch, 0, 0, 1, &s->leaf);
 }
 
-/* However near the pole a root is, it is proven where what the points are off by is far less than its distance. */
+/* However near the pole a root is, it is proven if the points' errors are far smaller than its distance. */
 static void next_to_a_pole_too(void **state)
 {
   (void)state;

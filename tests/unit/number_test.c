@@ -68,7 +68,7 @@ static void what_is_a_number(void **state)
   assert_true(number_read("1.5e12", 5, &value, &used) == NUMBER_FINITE && value == 15 && used == 5);
 }
 
-/* Digits, a point somewhere or nowhere, and an exponent or none: as strtod reads it. */
+/* Random digits, with or without a point and an exponent, are read as by strtod. */
 static void it_is_the_nearest_double(void **state)
 {
   (void)state;
@@ -87,7 +87,7 @@ static void it_is_the_nearest_double(void **state)
   }
 }
 
-/* Half way between two doubles the even one, and a digit however far behind decides. */
+/* Half way between two doubles the even one is taken; a single digit, however far behind, decides otherwise. */
 static void ties_are_decided_by_all_digits(void **state)
 {
   (void)state;
@@ -96,7 +96,7 @@ static void ties_are_decided_by_all_digits(void **state)
     const int length = snprintf(text, sizeof text, "9007199254740993.%0900d", more);
     expect_read(text, NUMBER_FINITE, more ? 0x1p53 + 2 : 0x1p53, (size_t)length);
   }
-  /* Half way, by 768 digits, from the largest subnormal to the least normal, which is even. */
+  /* Half way, in 768 digits, between the largest subnormal and the least normal, which is even. */
   const int length = snprintf(text, sizeof text, "%.767Le", 0x1p-1022L - 0x1p-1075L);
   char *const last = strchr(text, 'e') - 1;
   assert_true(length > 770 && *last != '0');
@@ -145,7 +145,7 @@ static void what_is_written(void **state)
   expect_written(NAN, "nan", "nan");
 }
 
-/* And no number with a digit less reads back as the same. */
+/* And no number of one digit less reads back as the same. */
 static void what_is_written_reads_back(void **state)
 {
   (void)state;

@@ -18,7 +18,7 @@ struct subject {
   struct model_patch patch;
   struct model_tree tree;
   struct leaf leaf;
-  double error; /* how far what the leaf stands for may be from it */
+  double error; /* how far the true surface may be from the leaf */
   struct oriented_box box;
   struct packet packet[PACKETS];
   struct view view;
@@ -29,14 +29,14 @@ static double power(struct random *random, double least, double most)
   return exp2(rint(random_between(random, least, most)));
 }
 
-/* Corners and borders, which the slabs reach, as often as what is between. */
+/* On corners and borders, which the slabs reach, as often as between them. */
 static double parameter(struct random *random)
 {
   const double t = random_between(random, -0.5, 1.5);
   return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
-/* How far any control point is from another in some coordinate, at least. */
+/* The largest distance of a control point from the sixth one, in one coordinate: at least half of the extent. */
 static double leaf_size(const struct subject *s)
 {
   double size = 0;
@@ -45,7 +45,8 @@ static double leaf_size(const struct subject *s)
   return size;
 }
 
-/* Of any shape, or flat, or slender, as many leaves or few; as it is, or off by up to an eighth of its size. */
+/* Makes a leaf of any shape, flat or slender, of a patch cut into many or few; exact, or off by up to an eighth of its
+ * size. */
 static void make_leaf(struct random *random, bool off, struct subject *s)
 {
   const int kind = (int)(random_bits(random) % 3);
@@ -72,8 +73,8 @@ static void make_leaf(struct random *random, bool off, struct subject *s)
   leaf_orient(&s->tree, s->error, &s->patch, s->leaf.slab, &s->box);
 }
 
-/* Ray `number` through a point of the leaf, that is off by up to its error, moved aside by `aside` across the ray; *out_t is
- * where it is met. */
+/* Ray `number` goes through a point of the leaf that is off by up to its error, moved aside by `aside` across the ray.
+ * *out_t is where it is met. */
 static void make_ray(struct random *random, struct subject *s, unsigned number, double aside, double *out_t)
 {
   const double u = parameter(random), v = parameter(random);
@@ -126,7 +127,7 @@ static void rays_that_meet_the_leaf_pass_its_box(void **state)
   }
 }
 
-/* Of those that pass it by at three times its size, in a tree not much larger than the leaf. */
+/* Rays pass the leaf by at about three times its size, in a tree not much larger than the leaf. */
 static void rays_that_do_not_are_told(void **state)
 {
   (void)state;
@@ -168,7 +169,7 @@ static void rays_that_end_before_are_told(void **state)
     const unsigned all = view_oriented(&s.view, &s.box);
     for (unsigned k = 0; k < FLOAT_LANES; k++) {
       const struct packet *p = &s.packet[k / LANES];
-      /* seen across its normal, and of a size that the box is not all of the way */
+      /* crosses the slab steeply, on a way much longer than the box */
       double across = 0;
       for (int c = 0; c < 3; c++) across += s.leaf.slab[0].g[c] * p->direction[c][k % LANES] * t[k];
       if (!(fabs(across) > 8 * s.patch.scale * s.leaf.slab[0].half) || !(fabs(across) > 0x1p-8 * s.tree.frame))

@@ -8,7 +8,7 @@
 
 #include "cmocka_test.h"
 
-/* Fills a template with values told as JSON. */
+/* Fills a template with values given as JSON. */
 static void expect(const char *template, const char *json, const char *text)
 {
   struct text_buffer page = {0};
@@ -39,7 +39,7 @@ static void test_sections(void **state)
   (void)state;
   expect("{{#rows}}<{{a}}{{b}}>{{/rows}}", "{\"b\":9,\"rows\":[{\"a\":1},{\"a\":2,\"b\":3}]}", "<19><23>");
   expect("{{#o}}{{#p}}{{x}}{{y}}{{/p}}{{/o}}", "{\"x\":0,\"o\":{\"x\":1,\"p\":{\"y\":2}}}", "12");
-  expect("{{#o}}{{x}}{{/o}}{{x}}", "{\"x\":0,\"o\":{\"x\":1}}", "10"); /* a name has its outer meaning again */
+  expect("{{#o}}{{x}}{{/o}}{{x}}", "{\"x\":0,\"o\":{\"x\":1}}", "10"); /* a name regains its outer meaning */
   expect("{{#a}}-{{/a}}", "{\"a\":[1,2,3,4,5,6,7,8,9,10]}", "----------");
   const char *const nothing[] = {"{}", "{\"s\":null}", "{\"s\":false}", "{\"s\":[]}"};
   for (size_t k = 0; k < sizeof nothing / sizeof nothing[0]; k++)
@@ -74,7 +74,7 @@ static void test_printable(void **state)
   json_decref(none);
 }
 
-/* Values that memory was too short for make no page. */
+/* Values that were cut short for lack of memory make no page. */
 static void test_failed(void **state)
 {
   (void)state;
@@ -98,7 +98,7 @@ static void test_room(void **state)
   text_buffer_free(&page);
 }
 
-/* Every block that a long page asks for fails once: the page says so, and holds no more than it had. */
+/* Each block that a long page asks for fails once. The page then reports it, and keeps what it had. */
 static long left = -1;
 void *__real_realloc(void *block, size_t size);
 void *__wrap_realloc(void *block, size_t size);

@@ -16,7 +16,7 @@ static void random_surface(struct random *random, double x[3][4][4])
   for (int k = 0; k < 48; k++) x[k / 16][k / 4 % 4][k % 4] = random_between(random, -1, 1);
 }
 
-/* Su x Sv in quadruple precision, scaled to length 1; returns whether it has a length. */
+/* Su x Sv in quadruple precision, scaled to length 1. Returns whether it has a length. */
 static bool exact_normal(double x[3][4][4], quad u, quad v, double out[3])
 {
   quad du[3], dv[3], n[3];
@@ -32,7 +32,7 @@ static bool exact_normal(double x[3][4][4], quad u, quad v, double out[3])
   return length > 0;
 }
 
-/* Su x Sv from inside, `away` off (u,v) towards the middle along u, v or both (bits 0 and 1 of `along`). */
+/* Su x Sv at a point inside, `away` from (u,v) towards the middle along u, v or both (bits 0 and 1 of `along`). */
 static void limit_normal(double x[3][4][4], double u, double v, double away, int along, double out[3])
 {
   const quad du = u > 0.5 ? -away : away, dv = v > 0.5 ? -away : away;
@@ -73,7 +73,8 @@ static void regular_points(void **state)
   }
 }
 
-/* One whole border collapsed: the normal is the limit along the way in, different at each point of the border. */
+/* A whole border is one point. The normal is the limit on the way to it, a different one at each parameter of the
+ * border. */
 static void collapsed_edges(void **state)
 {
   (void)state;
@@ -91,7 +92,7 @@ static void collapsed_edges(void **state)
   }
 }
 
-/* Next to such an edge, where Su x Sv is all but lost, the normal joins on: no jump, no noise. */
+/* Next to such a border Su x Sv is nearly lost. The normal continues there without jump or noise. */
 static void near_collapsed_edges(void **state)
 {
   (void)state;
@@ -110,7 +111,7 @@ static void near_collapsed_edges(void **state)
   }
 }
 
-/* Two control points of a corner coincide: Su or Sv vanishes in that corner alone. */
+/* Two control points coincide at a corner: Su or Sv vanishes there alone. */
 static void collapsed_corners(void **state)
 {
   (void)state;
@@ -129,7 +130,7 @@ static void collapsed_corners(void **state)
   }
 }
 
-/* Both derivatives vanish in a corner, its three neighbours being the corner itself (two of them on the borders). */
+/* Both derivatives vanish at a corner, which coincides with its three neighbours (two of them on the borders). */
 static void doubly_collapsed_corners(void **state)
 {
   (void)state;
@@ -145,7 +146,7 @@ static void doubly_collapsed_corners(void **state)
   }
 }
 
-/* Two collapsed edges meet in a corner. */
+/* Two borders that are points meet at a corner. */
 static void two_collapsed_edges_in_a_corner(void **state)
 {
   (void)state;
@@ -176,7 +177,7 @@ static void no_normal_where_there_is_no_surface(void **state)
     } else if (n % 3 == 1) { /* a curve: no row differs from another */
       for (int k = 0; k < 3; k++)
         for (int i = 1; i < 4; i++) memcpy(x[k][i], x[k][0], sizeof x[k][0]);
-    } else { /* a line, run through unevenly in both parameters */
+    } else { /* a line, traversed unevenly in both parameters */
       for (int k = 0; k < 16; k++)
         x[1][k / 4][k % 4] = 0.5 * x[0][k / 4][k % 4], x[2][k / 4][k % 4] = 0.25 * x[0][k / 4][k % 4];
     }

@@ -73,8 +73,7 @@ static void corners_are_exact(void **state)
   }
 }
 
-/* A subnet is the same polynomial: compared control value by control value with the restriction in quadruple
- * precision. */
+/* A subnet is the same polynomial: each control value is that of the restriction in quadruple precision. */
 static void subnets_are_right_to_their_roundings(void **state)
 {
   (void)state;
@@ -92,7 +91,7 @@ static void subnets_are_right_to_their_roundings(void **state)
       }
       if (n % 5 == 0) range[k] = 0;
       if (n % 7 == 0) range[k + 1] = 1;
-      /* The restriction in quadruple precision takes a width: make it exact. */
+      /* The restriction in quadruple precision is given a width, which must be exact. */
       range[k] = rint(range[k] * 0x1p40) * 0x1p-40, range[k + 1] = rint(range[k + 1] * 0x1p40) * 0x1p-40;
     }
     patch_subnet(net, range[0], range[1], range[2], range[3], cut);
@@ -127,7 +126,7 @@ static void the_whole_is_copied_and_cuts_agree(void **state)
     patch_subnet(net, 0, 1, t, 1, b);
     for (int i = 0; i < 4; i++) assert_true(a[i][0] == net[i][0] && a[i][3] == b[i][0] && b[i][3] == net[i][3]);
   }
-  /* A border that is one point stays that point, whatever part of it is taken. */
+  /* A border that is one point stays that point in every part. */
   double net[4][4], cut[4][4];
   random_net(&random, net);
   for (int j = 0; j < 4; j++) net[0][j] = 0.1;
@@ -135,7 +134,7 @@ static void the_whole_is_copied_and_cuts_agree(void **state)
   for (int j = 0; j < 4; j++) assert_true(cut[0][j] == 0.1);
 }
 
-/* Outside [0,1] the polynomial goes on: the margin of a leaf relies on it. */
+/* The polynomial continues outside [0,1]; a leaf's margin relies on it. */
 static void parameters_beyond_the_range_extrapolate(void **state)
 {
   (void)state;
@@ -153,7 +152,7 @@ static void parameters_beyond_the_range_extrapolate(void **state)
 
 /* ---- degrees ---- */
 
-/* The net of bidegree (m,n) raised to (3,3), rounded once at the end, scaled and moved. */
+/* The net of bidegree (m,n) raised to (3,3), scaled and moved, and rounded once at the end. */
 static void elevated(const double low[4][4], int m, int n, double scale, double offset, double out[4][4])
 {
   quad rows[4][4], cubic[4][4];
@@ -174,7 +173,7 @@ static void elevated(const double low[4][4], int m, int n, double scale, double 
   for (int k = 0; k < 16; k++) out[k / 4][k % 4] = (double)((quad)offset + (quad)scale * cubic[k / 4][k % 4]);
 }
 
-/* All nine bidegrees at several scales and offsets, with the slack that one rounding of the coordinates asks for. */
+/* All nine bidegrees at several scales and offsets, within the slack for one rounding of the coordinates. */
 static void true_bidegrees_are_found(void **state)
 {
   (void)state;
@@ -187,7 +186,7 @@ static void true_bidegrees_are_found(void **state)
       for (int n = 1; n <= 3; n++) {
         for (int k = 0; k < 60; k++) {
           double low[3][4][4], x[3][4][4];
-          const int which = k % 4; /* 3: all coordinates are of that degree; otherwise one is, the others lower */
+          const int which = k % 4; /* 3: all coordinates have this degree; otherwise one has, the others a lower one */
           double size = 0;
           for (int c = 0; c < 3; c++) {
             random_net(&random, low[c]);
@@ -220,7 +219,7 @@ static void a_change_beyond_the_slack_is_seen(void **state)
     const double slack = 8 * UNIT, push = 0x1p-45;
     x[k % 3][random_bits(&random) % 4][random_bits(&random) % 4] += push;
     patch_bidegree(x, slack, &got_m, &got_n);
-    assert_true(got_m == 3 && got_n == 3); /* one control value moved bends both its row and its column cubically */
+    assert_true(got_m == 3 && got_n == 3); /* a control value that is moved makes both its row and its column cubic */
   }
 }
 
@@ -245,7 +244,8 @@ static void reduced_nets_are_the_nets_that_were_raised(void **state)
     }
   }
   print_message("reduced nets off by %.3g roundings\n", worst);
-  /* One rounding of each cubic coefficient, weighted 1/4 (3 + 3 + 1 + 1) = 2 a direction, and four of its own. */
+  /* One rounding of each cubic coefficient, with weights 1/4 (3 + 3 + 1 + 1) = 2 a direction, and four of the value's
+   * own. */
   assert_true(worst <= 16);
 }
 

@@ -10,7 +10,7 @@
 #include "cmocka_test.h"
 #include "files.h"
 
-/* 3 x 2 tiles, the last ones of a row or column not whole. */
+/* 3 x 2 tiles; the last of a row or column are cut off. */
 enum { WIDTH = 70, HEIGHT = 45, TILES = 6 };
 
 static const char path[] = "part.exr";
@@ -21,8 +21,8 @@ static void write_file(unsigned char *bytes, size_t size)
   free(bytes);
 }
 
-/* Writes a part that says so of itself, and that it is all of its picture, which it is where x = 0 and the picture's width is
- * WIDTH; reads what it says, or all. */
+/* Writes a part with these claims, which also claims to be all of its picture. That is true if x = 0 and the picture's
+ * width is WIDTH. Reads its claims, or all of it. */
 static enum status read_part_at(size_t x, size_t width, bool pixels, const char *tile, const char *done,
                                 struct piece *out)
 {
@@ -84,14 +84,14 @@ static void what_cannot_be_is_no_part(void **state)
   }
   for (size_t k = 0; k < sizeof pieces / sizeof *pieces; k++)
     if (read_part(pieces[k], "0", &piece) != STATUS_INPUT) fail_msg("piece '%s' is believed", pieces[k]);
-  assert_int_equal(read_part_at(1, WIDTH, false, "1/1", "0", &piece), STATUS_INPUT); /* it is not in its picture */
+  assert_int_equal(read_part_at(1, WIDTH, false, "1/1", "0", &piece), STATUS_INPUT); /* it lies outside its picture */
   assert_int_equal(read_part_at(0, WIDTH, true, "1/1", "0", &piece), STATUS_INPUT);  /* it has no sum */
-  /* Its windows are not what it says. */
+  /* Its windows contradict its claims. */
   assert_int_equal(read_part_at(0, WIDTH + 1, false, "1/1", "0", &piece), STATUS_INPUT);
   assert_int_equal(read_part_at(1, WIDTH + 1, false, "1/1", "0", &piece), STATUS_INPUT);
 }
 
-/* What two parts have in common decides, and a message says which of it they have not. */
+/* Parts belong together if they have certain texts in common. A message names the one that differs. */
 static void parts_of_one_picture_belong_together(void **state)
 {
   (void)state;
@@ -114,11 +114,12 @@ static void parts_of_one_picture_belong_together(void **state)
     assert_memory_equal(message, expected, strlen(expected));
   }
   memcpy(changed, texts, sizeof texts);
-  *strstr(changed, "one") = '7'; /* another name of the scene is no other picture */
+  *strstr(changed, "one") = '7'; /* the scene's file may have another name */
   assert_true(piece_belongs(&part, &picture, message, sizeof message));
 }
 
-/* The tiles that are done are taken and written, and no others; not where a channel is not there. A line of text stays one. */
+/* The tiles that are done are copied and written, and no others; none if a channel is missing. A line of text stays one
+ * line. */
 static void what_is_done_is_copied(void **state)
 {
   (void)state;
@@ -160,7 +161,7 @@ static void what_is_done_is_copied(void **state)
   piece_destroy(&from), piece_destroy(&to);
 }
 
-/* Whatever the bits of colours are, data are kept as floats. */
+/* Data are kept as floats, whatever the bits of colours are. */
 static void channels_are_colours_or_data(void **state)
 {
   (void)state;
@@ -191,7 +192,8 @@ static uint64_t hash(uint64_t start, const void *bytes, size_t count, size_t siz
 
 static uint64_t fold(uint64_t sum) { return sum ^ sum >> 32; }
 
-/* The sum is that of all pixels of the picture, a channel at a time, though those beside the tiles are not asked. */
+/* The sum covers all pixels of the picture, one channel after the other, although those outside the tiles are not asked
+ * for. */
 static void the_sum_is_of_all_pixels(void **state)
 {
   (void)state;

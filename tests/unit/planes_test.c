@@ -7,12 +7,12 @@
 
 enum { SEED = 20261124, CASES = 20000 };
 
-/* Points are multiples of this part of the patch's scale, and what they are off by is no more than so many of that: origins of
- * rays are exact then. */
+/* Points are multiples of this part of the patch's scale, so that origins of rays are exact. They are off by at most
+ * GRAINS of them. */
 #define GRAIN 0x1p-40
 #define GRAINS 64
 
-/* A direction of few bits: any, or nearly along the leaf. */
+/* A direction of few bits: any one, or nearly along the leaf. */
 static void make_direction(struct random *random, const struct subject *s, double out[3])
 {
   const double few = exp2(4 + 4.0 * (double)(random_bits(random) % 3)), a = random_between(random, -1, 1);
@@ -26,7 +26,7 @@ static void make_direction(struct random *random, const struct subject *s, doubl
   for (int k = 0; k < 3; k++) out[k] = rint(out[k] / most * few) / few;
 }
 
-/* Lane `lane` gets a ray that is next to a point of the leaf at t, between its ends. */
+/* Gives lane `lane` a ray next to a point of the leaf, which lies at t, between the ray's ends. */
 static void make_ray(struct random *random, struct subject *s, unsigned lane)
 {
   struct packet *p = &s->packet;
@@ -38,7 +38,7 @@ static void make_ray(struct random *random, struct subject *s, unsigned lane)
   make_direction(random, s, direction);
   subject_point(s, u, v, point);
   for (int k = 0; k < 3; k++) {
-    const double off = random_bits(random) % 2 ? GRAINS - 1 : 1 - GRAINS; /* and the rounding to a grain */
+    const double off = random_bits(random) % 2 ? GRAINS - 1 : 1 - GRAINS; /* leaves room for the rounding to a grain */
     const double at = s->patch.center[k] + s->patch.scale * point[k];
     p->direction[k][lane] = direction[k], p->origin[k][lane] = (rint(at / grain) + off) * grain - t * direction[k];
   }

@@ -10,7 +10,7 @@
 
 enum { TRIALS = 3000, LARGEST_COUNTED = 9 };
 
-/* A bound is worth something if it is not larger than this many unit roundoffs of the sum of moduli, per degree. */
+/* A bound is useful if it is at most this many unit roundoffs of the sum of moduli, per degree. */
 #define BOUND_LOOSENESS 40.0
 
 /* sum c[k] u^k v^(n-k), with v = 1 - u or 1, and its derivative in u. */
@@ -48,7 +48,7 @@ static void random_polynomial(struct random *random, struct polynomial *p, doubl
   p->error = error;
 }
 
-/* Where a chart is used, |z| <= 1: powers of z, or of 1/x, that is the coefficients in reverse. */
+/* Where a chart is used, |z| <= 1: powers of z, or of 1/x, whose coefficients are reversed. */
 static void check_value(struct random *random, const struct polynomial *p, const double moved[])
 {
   struct evaluation e;
@@ -78,7 +78,7 @@ static void values_lie_within_bounds(void **state)
   }
 }
 
-/* The bounds of the coefficients go into the bound of the value: a polynomial moved by them stays within. */
+/* The bound of a value contains the bounds of the coefficients: a polynomial moved by these stays within it. */
 static void coefficient_errors_count(void **state)
 {
   (void)state;
@@ -105,7 +105,7 @@ static void bernstein_form_within_bounds(void **state)
     double other_c[POLYNOMIAL_MAX_DEGREE + 1], other_error[POLYNOMIAL_MAX_DEGREE + 1];
     random_polynomial(&random, &p, c, error);
     polynomial_to_bernstein(&p, other_c, other_error);
-    /* The two agree at a point up to what the bounds of the coefficients allow there. */
+    /* At a point both agree within what the bounds of the coefficients allow there. */
     const struct polynomial other = {p.degree, BASIS_BERNSTEIN, other_c, NULL};
     const double u = random_unit(&random);
     wide value, other_value, slope, size, allowed = 0;
@@ -118,7 +118,8 @@ static void bernstein_form_within_bounds(void **state)
   }
 }
 
-/* Eq 11 at a point next to a root, where double has no digit of |P| right: (x - 1)^3 (x - 2^40), and in x = u/(1-u). */
+/* Eq 11 at a point next to a root, where no digit of |P| is right in doubles: (x - 1)^3 (x - 2^40), and in x =
+ * u/(1-u). */
 static void eq11_is_measured_in_higher_precision(void **state)
 {
   (void)state;
@@ -128,13 +129,13 @@ static void eq11_is_measured_in_higher_precision(void **state)
   const double expected = d * d * d * (large - x) / (4 * 0x1p-52 * ((3 + 3 * large) * x * x));
   assert_true(fabs(polynomial_eq11(&p, x, 0) / expected - 1) < 1e-14);
   assert_true(polynomial_eq11(&p, 1, 0) == 0 && polynomial_eq11(&p, large, 0) == 0);
-  const double far = nextafter(large, INFINITY); /* one place off: |x - 1|^3 times that place */
+  const double far = nextafter(large, INFINITY); /* one place farther: |x - 1|^3 times that place */
   const double place = far - large, terms = (3 + large) * far * far * far;
   assert_true(fabs(polynomial_eq11(&p, far, 0) / ((far - 1) * (far - 1) * (far - 1) * place / (4 * 0x1p-52 * terms)) -
                    1) < 1e-14);
 }
 
-/* All ways of giving the unknown signs a value: no change is counted at a zero. */
+/* Tries all ways of giving the unknown signs a value. A zero counts as no change. */
 static int count_by_enumeration(int degree, const double c[], const double error[])
 {
   int open[LARGEST_COUNTED + 1], open_count = 0;

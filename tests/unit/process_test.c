@@ -16,7 +16,7 @@
 
 static const char *const OUTPUT = "output";
 
-/* Set by SIGUSR1, by which a program says that it is ready to be stopped. */
+/* Set by SIGUSR1, with which a program says that it is ready to be stopped. */
 static atomic_int stop;
 static void on_ready(int signal) { atomic_store(&stop, signal); }
 
@@ -35,7 +35,7 @@ static int leave_folder(void **state)
   return result;
 }
 
-/* A shell that does as the request says but for its program, which is this. */
+/* Runs this program of a shell, otherwise as the request says. */
 static enum status run(struct process_request request, const char *program, struct process_result *out)
 {
   const char *const arguments[] = {"sh", "-c", program, NULL};
@@ -71,7 +71,7 @@ static void the_environment_is_changed(void **state)
   expect_file(OUTPUT, "unset new inside\n");
 }
 
-/* Whatever of these we do not listen to, the program does. */
+/* The program obeys these signals even if we ignore them. */
 static void signals_end_it(void **state)
 {
   (void)state;
@@ -88,7 +88,7 @@ static void signals_end_it(void **state)
   }
 }
 
-/* Soft and hard limits; a shell counts addresses by 1024 bytes, and files by 512. */
+/* Soft and hard limits. A shell counts addresses in units of 1024 bytes, files in units of 512. */
 static void limits_are_kept(void **state)
 {
   (void)state;
@@ -100,7 +100,7 @@ static void limits_are_kept(void **state)
                        "ulimit -c; ulimit -v; ulimit -f; ulimit -H -v; ulimit -H -f", &result),
                    STATUS_OK);
   expect_file(OUTPUT, "0\n1048576\n2097152\n1048576\n2097152\n");
-  /* A limit that is lower already stays. */
+  /* A limit that is lower already is kept. */
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &(struct rlimit){1 << 20, file.rlim_max}), 0);
   assert_int_equal(run((struct process_request){.memory = (size_t)1 << 30}, "ulimit -f", &result), STATUS_OK);
   expect_file(OUTPUT, "2048\n");
@@ -138,7 +138,7 @@ static void what_cannot_be_run_is_missing(void **state)
   }
 }
 
-/* Of what it took only its own: none of those before it. */
+/* Its time excludes that of the programs before it. */
 static void time_is_its_own(void **state)
 {
   (void)state;
@@ -149,7 +149,7 @@ static void time_is_its_own(void **state)
   assert_true(busy.time.cpu > idle.time.cpu && idle.time.wall >= 0.01);
 }
 
-/* All of its group are asked to end, and have a while for that: here not the program, but one that it started. */
+/* The whole group is asked to end, and has some time for it. Here not the program does so, but one that it started. */
 static void it_is_asked_to_end(void **state)
 {
   (void)state;
@@ -162,7 +162,7 @@ static void it_is_asked_to_end(void **state)
   expect_file(OUTPUT, "ended\n");
 }
 
-/* And made to, whoever does not listen: nobody holds the pipe any more. */
+/* A program that does not listen is killed: nobody holds the pipe any more. */
 static void it_is_made_to_end(void **state)
 {
   (void)state;

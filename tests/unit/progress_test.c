@@ -8,7 +8,7 @@
 
 #include "cmocka_test.h"
 
-/* How wide the terminal is; 0: none tells. */
+/* The width of the terminal; 0: it is not known. */
 static unsigned short columns;
 
 int __wrap_ioctl(int descriptor, unsigned long request, ...);
@@ -29,7 +29,7 @@ static struct render_progress rendered = {.pixels_total = 1000};
 static void tell_rendered(struct progress *progress) { progress_tell(progress, &rendered); }
 static void tell_written(struct progress *progress) { progress_write(progress, 0.25); }
 
-/* What is said on standard error, a file. */
+/* Expects this text on standard error, which is a file meanwhile. */
 static void expect(void (*tell)(struct progress *progress), struct progress progress, const char *line)
 {
   char told[1000];
@@ -66,14 +66,14 @@ static void test_rendering(void **state)
     rendered.pixels = cases[k].pixels, rendered.rays = cases[k].rays, rendered.seconds = cases[k].seconds;
     expect(tell_rendered, lines, cases[k].line);
   }
-  expect(tell_rendered, (struct progress){.told = 4}, ""); /* not so soon again */
+  expect(tell_rendered, (struct progress){.told = 4}, ""); /* too soon after the last */
   rendered.pixels = 500;
   expect(tell_rendered, bar, "\r[###############...............] 50 %, 125.0 k rays/s, 8 s left\033[K\r\033[K");
   rendered.seconds = 0.1;
-  expect(tell_rendered, bar, ""); /* nothing was told, and nothing is to be wiped away */
+  expect(tell_rendered, bar, ""); /* nothing was written, so nothing is wiped away */
 }
 
-/* The line stays on one row of the terminal, whose last column is left free: first the bar gives way. */
+/* The line stays in one row of the terminal, and leaves its last column free. The bar is dropped first. */
 static void test_narrow_terminals(void **state)
 {
   (void)state;
@@ -93,7 +93,7 @@ static void test_narrow_terminals(void **state)
   columns = 0;
 }
 
-/* Writing began long ago, or begins now. */
+/* Writing began long ago, or just now. */
 static void test_writing(void **state)
 {
   (void)state;

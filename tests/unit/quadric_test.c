@@ -8,26 +8,26 @@
 
 enum { SEED = 20261125, CASES = 20000 };
 
-/* Points are multiples of this part of the patch's scale, and what they are off by is no more than so many of that. */
+/* Points are multiples of this part of the patch's scale, and off by at most GRAINS of them. */
 #define GRAIN 0x1p-46
 #define GRAINS 64
 
 enum { HALVINGS = 4 };
 #define ROUGH 0.2
 
-/* In grains, from the patch's center. */
+/* A point in grains, from the patch's center. */
 static void make_point(struct random *random, const struct subject *s, double margin, double at[2], double out[3])
 {
   for (int k = 0; k < 2; k++) at[k] = fmin(fmax(random_between(random, -0.5, 1.5), -margin), 1 + margin);
   subject_point(s, at[0], at[1], out);
   for (int k = 0; k < 3; k++) {
-    const double off = random_bits(random) % 2 ? GRAINS - 1 : 1 - GRAINS; /* and the rounding to a grain */
+    const double off = random_bits(random) % 2 ? GRAINS - 1 : 1 - GRAINS; /* leaves room for the rounding to a grain */
     out[k] = rint(out[k] / GRAIN) + off;
   }
 }
 
-/* Lane `lane` gets a ray through a point of the leaf, between its ends, and one of the widened leaf, at the known root, as far
- * from it as its radii allow. */
+/* Gives lane `lane` a ray through a point of the leaf, between the ray's ends, and through one of the widened leaf.
+ * There is the known root, as far off as its radii allow. */
 static void make_ray(struct random *random, struct subject *s, struct leaf_root *root, unsigned lane)
 {
   struct packet *p = &s->packet;
@@ -36,7 +36,7 @@ static void make_ray(struct random *random, struct subject *s, struct leaf_root 
   make_point(random, s, 0, other, to);
   for (int k = 0; k < 3; k++) way[k] = to[k] - from[k], most = fmax(most, fabs(way[k]));
   const double unit = ldexp(1, ilogb(fmax(most, 1))), side = random_bits(random) % 2 ? 1 : -1;
-  /* t of the known root is 0, of the other one `t` */
+  /* The known root has t = 0, the other one `t`. */
   const double t = side * unit * GRAIN * s->patch.scale, radius = random_bits(random) % 2 ? 0x1p-30 : 0;
   int axis = 0;
   for (int k = 0; k < 3; k++) {
@@ -76,12 +76,12 @@ static void another_root_is_never_told_away(void **state)
       besides += lanes_count(quadric_closes(&along, &it, &root, asked));
       root.at.exists = ~all;
       alone += lanes_count(quadric_closes(&along, &it, &root, asked));
-      /* not vacuous: with ends that leave the other root out much is closed */
+      /* not vacuous: if the ray's ends exclude the other root, much is closed */
       const lanes end = p->t_max;
       root.at.exists = all, p->t_max = lanes_min(p->t_max, lanes_all(0));
       tried += lanes_count(asked), quadric_along(p, &it, here, &along);
       elsewhere += lanes_count(quadric_closes(&along, &it, &root, asked));
-      /* what the ray has hit does as if it were not: else last places would show what came first */
+      /* the ray's nearest hit so far must not matter: otherwise last places would show which leaf came first */
       p->t_max = end, p->t_far = lanes_min(p->t_far, lanes_all(0));
       quadric_along(p, &it, here, &along);
       besides += lanes_count(quadric_closes(&along, &it, &root, asked));
@@ -96,7 +96,7 @@ static void another_root_is_never_told_away(void **state)
 
 /* ---- three roots ---- */
 
-/* A leaf over a plane, z a cubic in x where y is constant: whatever line in that plane meets two points of it meets a third one. */
+/* The third root of a line through two points at constant v of a leaf over a plane, where z is a cubic in x. */
 static double third_root(const struct subject *s, double v, double u1, double u2)
 {
   double c[4];
@@ -109,11 +109,12 @@ static double third_root(const struct subject *s, double v, double u1, double u2
   return -square / cubic - u1 - u2;
 }
 
-/* Such a leaf where two roots are as far apart, for how much the rest turns, as they may be beside a third one: with s and t about
- * the middle s^3 - 3/4 s^2, and what is linear, for roots near s = -1/4 and, twice, s = 1/2. */
+/* Makes such a leaf whose two known roots are, given how much the rest turns, as far apart as they may be beside a
+ * third one. With s and t about the middle z is s^3 - 3/4 s^2 and something linear, for roots near s = -1/4 and, twice,
+ * s = 1/2. */
 static void make_s_shape(struct random *random, struct subject *s)
 {
-  static const double height[4] = {-15, 5, -11, -15}; /* by 48 */
+  static const double height[4] = {-15, 5, -11, -15}; /* times 48 */
   const bool mirrored = random_bits(random) % 2;
   const double size = exp2(random_between(random, -6, 0)) / 48;
   do subject_make(random, HALVINGS, ROUGH, s);
@@ -127,7 +128,7 @@ static void make_s_shape(struct random *random, struct subject *s)
 static void know(struct leaf_root *root, unsigned lane, double u, double v, double w)
 {
   root->at.u[lane] = u, root->at.v[lane] = v, root->w[lane] = w;
-  root->at.radius_u[lane] = root->at.radius_v[lane] = 0x1p-26; /* that is what the points' rounding makes of it */
+  root->at.radius_u[lane] = root->at.radius_v[lane] = 0x1p-26; /* the effect of the points' rounding */
 }
 
 static void a_third_root_is_never_told_away(void **state)

@@ -29,7 +29,7 @@ static void expect_invariance(const struct scene *scene)
   free(whole);
 }
 
-/* A camera sees what is right before it, and to the end of the world. */
+/* A camera sees what is just in front of it, and what is very far away. */
 static void all_distances_are_seen(void **state)
 {
   (void)state;
@@ -54,7 +54,7 @@ static void threads_and_crop_change_nothing(void **state)
   expect_invariance(&scene);
 }
 
-/* Which one of the solvers asks for. */
+/* Only one of the two solvers asks for them. */
 static void nor_do_they_with_warm_starts(void **state)
 {
   (void)state;
@@ -68,7 +68,7 @@ static void nor_do_they_with_warm_starts(void **state)
   solvers[1].roots.start = START_PREVIOUS;
   solvers[1].polish = false;
   solvers[1].split = 1;
-  solvers[1].roots.tolerance = 0.05; /* coarse, so that answers do depend on where the solver starts */
+  solvers[1].roots.tolerance = 0.05; /* coarse, so that answers depend on where the solver starts */
   expect_invariance(&scene);
 }
 
@@ -120,8 +120,9 @@ static void channels_tell_of_the_hit(void **state)
   free(out);
 }
 
-/* What the solver did: iterations, roots, eq 11, the distance from the certified answer. The other channels are the
- * same bits whether they are asked for or not. Returns how many pixels deviate by more than `off`, or are wrong. */
+/* The channels that show the solver's work: iterations, roots, eq 11, the deviation from the certified answer. The
+ * other channels have the same bits, whether these are asked for or not. Returns how many pixels are wrong, or deviate
+ * by more than `most_off`. */
 static size_t expect_measures(const struct scene *scene, double most_roots, double most_off)
 {
   const struct render_options plain = options_of("rgb,depth,u,v,patch,normal,status");
@@ -129,7 +130,7 @@ static size_t expect_measures(const struct scene *scene, double most_roots, doub
     "rgb,depth,u,v,patch,normal,status,iterations,roots,residual,deviation");
   struct render_stats stats;
   float *expected = render(scene, &plain, &stats), *out = render(scene, &more, &stats);
-  method_default(solver_at(0), &solver); /* the scene's */
+  method_default(solver_at(0), &solver); /* of the scene */
   float *exact = render(scene, &plain, &stats);
   size_t off = 0, hits = 0, accurate = 0;
   for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
@@ -156,12 +157,12 @@ static void channels_tell_of_the_solver(void **state)
 {
   (void)state;
   struct scene scene = scene_of();
-  assert_int_equal(expect_measures(&scene, INFINITY, 0), 0); /* the default is what is certified */
+  assert_int_equal(expect_measures(&scene, INFINITY, 0), 0); /* the default's answers are the certified ones */
   static const char *const names[] = {"newton", "laguerre", "aberth", "durand_kerner"};
   size_t off = 0;
   for (int k = 0; k < 4; k++) {
     scene = scene_of();
-    patches[1] = square(3, 2, 0.7); /* bidegree 3, as the other one */
+    patches[1] = square(3, 2, 0.7); /* bidegree 3, as the other patch has */
     method_default(solver_find(names[k], strlen(names[k])), &solver);
     solver_options_form(&solver.roots, false);
     solver.basis = BASIS_POWER, solver.polish = false, solver.split = 1;
@@ -172,7 +173,7 @@ static void channels_tell_of_the_solver(void **state)
   assert_true(off > 0 && off < 4 * WIDTH * HEIGHT / 2);
 }
 
-/* The status of a pixel is its answer's, certain by default and not where nothing is polished. */
+/* The status of a pixel is that of its answer: certain by default, and never without polish. */
 static void statuses_are_the_answers(void **state)
 {
   (void)state;
@@ -234,7 +235,7 @@ static void a_stopped_rendering_says_so(void **state)
   const struct render_options options = options_of("rgb");
   static float out[WIDTH * HEIGHT * 3];
   const atomic_int stop = 15;
-  const struct render_watch watches[] = {{.stop = &stop}, {.failed = &stop}}; /* it could not be written */
+  const struct render_watch watches[] = {{.stop = &stop}, {.failed = &stop}}; /* its file could not be written */
   struct render_stats stats;
   struct intersector *intersector;
   assert_int_equal(intersector_create(&scene, &intersector), STATUS_OK);
@@ -245,11 +246,12 @@ static void a_stopped_rendering_says_so(void **state)
   intersector_destroy(intersector);
 }
 
-/* What is told while tiles are done: of all pixels, and of all rays, the shadow rays, too. It stops when that has been seen. */
+/* Progress while tiles are done: all pixels and all rays, shadow rays included, are counted. Once that has been seen,
+ * it stops the rendering. */
 struct listening {
   atomic_int stop;
   size_t total, pixels;
-  double start; /* by the clock */
+  double start; /* of the clock */
   bool right;
 };
 
@@ -276,7 +278,7 @@ static void progress_is_told(void **state)
   struct intersector *intersector;
   assert_int_equal(intersector_create(&scene, &intersector), STATUS_OK);
   const enum status status = render_scene(&scene, intersector, &options, &watch, out, &stats);
-  assert_true(status == STATUS_INTERRUPTED || status == STATUS_OK); /* in the last tile nobody stops any more */
+  assert_true(status == STATUS_INTERRUPTED || status == STATUS_OK); /* in the last tile it is too late to stop */
   assert_int_equal(heard.total, WIDTH * HEIGHT);
   assert_true(heard.right);
   intersector_destroy(intersector);

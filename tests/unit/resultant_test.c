@@ -31,7 +31,7 @@ static double choose(int n, int k)
 
 static void random_net(struct random *random, int m, int n, double net[16])
 {
-  for (int k = 0; k < 16; k++) net[k] = NAN; /* what lies outside the degree must not be read */
+  for (int k = 0; k < 16; k++) net[k] = NAN; /* what lies outside the degree may not be read */
   for (int i = 0; i <= m; i++)
     for (int j = 0; j <= n; j++) net[4 * i + j] = random_between(random, -1, 1);
 }
@@ -59,7 +59,7 @@ static void quad_add_product(quad sign, const quad x[TERMS], const quad y[TERMS]
     for (int h = 0; i + h < TERMS; h++) out[i + h] += sign * x[i] * y[h];
 }
 
-/* The scaled Bernstein coefficients of r for plain Bernstein nets: Leibniz's formula on the symmetric matrix. */
+/* The scaled Bernstein coefficients of r for plain Bernstein nets, by Leibniz's formula on the symmetric matrix. */
 static void quad_resultant(int m, int n, const quad a[16], const quad b[16], quad c[TERMS])
 {
   quad A[16], B[16], M[3][3][TERMS], t[TERMS];
@@ -123,8 +123,8 @@ static void bezout_is_sylvester_up_to_sign(void **state)
   }
 }
 
-/* r, evaluated, is the determinant of the values: tried at points, so that a wrong binomial here can not hide behind
- * the same one there. */
+/* The values of r are the determinants of values. Tried at points, so that a wrong binomial in one place cannot hide
+ * behind the same one in another. */
 static void coefficients_are_those_of_the_determinant_of_values(void **state)
 {
   (void)state;
@@ -154,7 +154,7 @@ static void coefficients_are_those_of_the_determinant_of_values(void **state)
   }
 }
 
-/* The nets of a case: plain random ones, and those that strain a bound: signs that add up, entries of very unlike
+/* The nets of a case: plain random ones, and some that strain a bound: signs that add up, entries of very different
  * size, a and b nearly proportional, nets of a flat patch seen edge-on. */
 static void strained_nets(struct random *random, int kind, int m, int n, double a[16], double b[16])
 {
@@ -176,9 +176,9 @@ static void strained_nets(struct random *random, int kind, int m, int n, double 
 }
 enum { KINDS = 8 };
 
-/* resultant_error.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and is off by at most
- * that times the roundings and the nets' own error. Both must hold. How far from the truth they are is printed: a bound
- * a million times too large would be true and useless. */
+/* resultant_error.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and its error at most
+ * that times the roundings and the nets' own error. Both must hold. The largest ratios are printed: a bound a million
+ * times too large would be true and useless. */
 static void the_bound_of_r_holds(void **state)
 {
   (void)state;
@@ -193,7 +193,7 @@ static void the_bound_of_r_holds(void **state)
         const double weight = RESULTANT_WEIGHT[n] * pow(alpha * beta, n);
         bezout_resultant(m, n, a, b, c);
         quad qa[16], qb[16], exact[TERMS], blurred[TERMS];
-        const double error = 0x1p-44; /* the true nets may be this far off the given ones */
+        const double error = 0x1p-44; /* of the given nets, at most */
         for (int e = 0; e < 16; e++) qa[e] = a[e], qb[e] = b[e];
         quad_resultant(m, n, qa, qb, exact);
         for (int e = 0; e < 16; e++) {
@@ -219,7 +219,7 @@ static void the_bound_of_r_holds(void **state)
   }
 }
 
-/* Takes from net[3 or so] a multiple of the weights so that it vanishes at (u,v), in quadruple precision rounded
+/* Subtracts from the net a multiple of the weights so that it vanishes at (u,v), in quadruple precision rounded
  * once. */
 static void plant(int m, int n, double u, double v, double net[16])
 {
@@ -238,7 +238,7 @@ static void plant(int m, int n, double u, double v, double net[16])
     if (w[k] != 0) net[k] = (double)(net[k] - value / norm * w[k]);
 }
 
-/* Nets with a common root (u,v): r(u) is 0 within the bound, and the null vector at u is v. */
+/* Nets with a common root (u,v): r(u) is 0 within the bound, and the null vector at u gives v. */
 static void a_common_root_is_a_root_of_r(void **state)
 {
   (void)state;
@@ -265,7 +265,7 @@ static void a_common_root_is_a_root_of_r(void **state)
         for (int f = 0; f < 2 * m * n; f++) term *= f < e ? (quad)u : 1 - (quad)u;
         value += term;
       }
-      /* Planting rounded each coefficient once; the bound of a coefficient bounds the value: weights sum to 1. */
+      /* Planting rounds each coefficient once. The weights sum to 1, so a coefficient's bound also bounds the value. */
       const double error = fmax(alpha, beta) * UNIT_ROUNDOFF;
       const double bound = RESULTANT_ERROR(n, pow(alpha * beta, n), alpha, beta, error);
       worst_r = fmax(worst_r, fabs((double)value) / bound);
@@ -279,7 +279,7 @@ static void a_common_root_is_a_root_of_r(void **state)
       const int row = better > 0 ? 0 : 1;
       const double off = fabs(num[row] / den[row] - v);
       worst_v = fmax(worst_v, off), typical_v += off < 1e-11, counted++;
-      /* Whichever way is chosen, it is a root where the other one is, unless its denominator vanishes. */
+      /* Both ways give the same root, unless a denominator nearly vanishes. */
       if (fabs(den[0]) > 0.1 && fabs(den[1]) > 0.1) assert_true(fabs(num[0] / den[0] - num[1] / den[1]) < 1e-10);
     }
     print_message("n = %d: r(u) / bound %.3g; null vector off %.3g at worst, below 1e-11 on %.2f %%\n", n, worst_r,
@@ -289,7 +289,7 @@ static void a_common_root_is_a_root_of_r(void **state)
   }
 }
 
-/* The null vector also answers roots outside [0,1], and is exact on exact data. */
+/* The null vector also gives roots outside [0,1], and is accurate for exact data. */
 static void null_vectors_of_known_roots(void **state)
 {
   (void)state;

@@ -8,7 +8,7 @@
 
 enum { SEED = 20240522, ROUNDS = 400, SWEEPS = 100 };
 
-/* Starts this near are good ones: a step below ROOTS_SETTLED leaves about its square, some times over. */
+/* A start this near is good enough: a step below ROOTS_SETTLED leaves about its square, a few times over. */
 #define NEAR 1e-3
 
 /* Multiplies c[0..*degree], scaled Bernstein form, by e0 (1-u) + e1 u. */
@@ -26,8 +26,8 @@ static void times_quadratic(double c[], int *degree, double e0, double e1, doubl
   for (int k = n; k >= 0; k--) c[k] = c[k] * e0 + (k > 0 ? c[k - 1] * e1 : 0) + (k > 1 ? c[k - 2] * e2 : 0);
 }
 
-/* A polynomial with `inside` real roots in [0,1], at least `apart` from each other; the others real outside, and pairs
- * at least as far off. */
+/* A polynomial with `inside` real roots in [0,1], at least `apart` from each other. Its other roots are real ones
+ * outside and pairs, at least as far away. */
 static void known_polynomial(struct random *random, int n, int inside, double root[], double c[])
 {
   int degree = 0;
@@ -47,7 +47,7 @@ static void known_polynomial(struct random *random, int n, int inside, double ro
   }
 }
 
-/* The one that is tested. */
+/* The method under test. */
 static enum solver_lanes method;
 
 static lane_mask run_all(struct roots_lanes *a, lane_mask wanted)
@@ -87,13 +87,12 @@ static void known_roots_are_found(void **state)
   }
   print_message("%d roots, %d lost; %d lanes not done\n", roots, lost, undone);
   assert_true(roots > ROUNDS);
-  /* A value may come to rest too early, which costs its caller time only. */
+  /* A value may settle too early, which costs its caller time only. */
   assert_true(lost <= roots / 1000);
   assert_true(undone <= ROUNDS * LANES / 1000);
 }
 
-/* Of degree 2 in powers of y, as leaves that are nearly bilinear have them: one root in [-1,1], the other one anywhere,
- * or at infinity. */
+/* Quadratics in y, as of nearly bilinear leaves: one root in [-1,1], the other one anywhere, or at infinity. */
 static void a_root_of_quadratics_is_found(void **state)
 {
   (void)state;
@@ -102,7 +101,7 @@ static void a_root_of_quadratics_is_found(void **state)
     lanes q[3], root = {0};
     for (int lane = 0; lane < LANES; lane++) {
       const double size = exp2(random_between(&random, -300, 300)), y = random_between(&random, -0.99, 0.99);
-      const double far = random_between(&random, -0.9, 0.9); /* one over the other one */
+      const double far = random_between(&random, -0.9, 0.9); /* the inverse of the other root */
       const double one = random_bits(&random) % 4 == 0 ? 0 : far;
       root[lane] = y, q[0][lane] = -size * y, q[1][lane] = size * (1 + one * y), q[2][lane] = -size * one;
     }
@@ -116,7 +115,7 @@ static void a_root_of_quadratics_is_found(void **state)
   }
 }
 
-/* From the roots of a polynomial near by, one of which has become a pair, or the other way round. */
+/* Starts from the roots of a nearby polynomial, of which two real ones have become a pair, or the reverse. */
 static void previous_roots_part_and_meet(void **state)
 {
   (void)state;
@@ -148,7 +147,7 @@ static void previous_roots_part_and_meet(void **state)
   }
 }
 
-/* Coefficients that vanish at either end of the powers of y, all, or are not numbers: no hang, and the lanes beside
+/* Coefficients that vanish at either end of the powers of y, or all, or are NaN: no lane hangs, and the lanes beside
  * them are not disturbed. */
 static void neighbours_do_not_matter(void **state)
 {
@@ -190,7 +189,7 @@ static void neighbours_do_not_matter(void **state)
   }
 }
 
-/* At least one step of every root, or of one of each pair, on the lanes that seek. */
+/* At least one step of each root, or of one of each pair, on the lanes that seek roots. */
 static void what_is_done_is_counted(void **state)
 {
   (void)state;

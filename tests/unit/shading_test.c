@@ -5,15 +5,15 @@
 #include "render/shade.h"
 #include "unit/rendered.h"
 
-/* Pixel n of a picture of "rgb,patch", and the point of the wall, patch 1, that it shows; NULL where it shows
- * another. */
+/* Pixel n of a picture of "rgb,patch" and the point of the wall, patch 1, that it shows; NULL if it shows something
+ * else. */
 static const float *wall_pixel(const float *picture, size_t n, double out_point[3])
 {
   point_on_wall(n % WIDTH, n / WIDTH, out_point);
   return picture[4 * n + 3] == 1 ? picture + 4 * n : NULL;
 }
 
-/* The colour of a point of the flat square, seen by the camera of scene_of, by the formulas of shade.h. */
+/* The colour of a point of the flat square, seen by the camera of scene_of, from the formulas of shade.h. */
 static void expected_colour(const double point[3], const struct scene *scene, double out[3])
 {
   const double normal[3] = {0, 0, -1};
@@ -67,7 +67,7 @@ static void colours_follow_the_formulas(void **state)
     const size_t f = k / 2;
     texture.finish = finishes[f];
     lights[0].position[2] = k % 2 == 0 ? -6 : 1; /* high above, and grazing: the mirrored ray may lead away from it */
-    lights[1].position[2] = f == 3 ? 3 : -6;     /* behind the surface it gives nothing */
+    lights[1].position[2] = f == 3 ? 3 : -6;     /* behind the surface it adds nothing */
     struct render_stats stats;
     float *out = render(&scene, &options, &stats);
     for (size_t y = 0; y < HEIGHT; y++) {
@@ -83,7 +83,7 @@ static void colours_follow_the_formulas(void **state)
   texture = saved;
 }
 
-/* A negative diffuse part takes nothing from the ambient colour. */
+/* A negative diffuse part does not reduce the ambient colour. */
 static void nothing_darkens(void **state)
 {
   (void)state;
@@ -104,7 +104,7 @@ static void nothing_darkens(void **state)
   texture = saved;
 }
 
-/* Powers, colours and products as large as a scene can ask for are too bright for a float at most. */
+/* Powers, colours and products as large as a scene can ask for are at most too bright for a float, never NaN. */
 static void extreme_colours_are_numbers(void **state)
 {
   (void)state;
@@ -135,7 +135,7 @@ static void extreme_colours_are_numbers(void **state)
   lights[0] = light;
 }
 
-/* In a mirror's direction cosines are above 1 by rounding: that to a large power is still 1, not a spot of all there is. */
+/* In a mirror's direction rounding makes cosines exceed 1. Their large powers must still be 1, not a blinding spot. */
 static void highlights_are_no_brighter_than_their_light(void **state)
 {
   (void)state;
@@ -162,8 +162,8 @@ static void highlights_are_no_brighter_than_their_light(void **state)
   lights[0] = light;
 }
 
-/* The shadow ray begins beside the surface and ends at the light, along an axis too; where the light is just where it
- * begins, it still has a direction. */
+/* The shadow ray begins beside the surface and ends at the light, also along an axis. It has a direction even if the
+ * light is exactly where it begins. */
 static void a_light_may_be_where_its_shadow_ray_begins(void **state)
 {
   (void)state;
@@ -187,14 +187,14 @@ static void a_light_may_be_where_its_shadow_ray_begins(void **state)
   intersector_destroy(intersector);
 }
 
-/* What is hidden from the only light has the ambient colour, unless the light is shadowless. */
+/* A point hidden from the only light has the ambient colour, unless the light is shadowless. */
 static void shadows_are_cast(void **state)
 {
   (void)state;
   struct scene scene = scene_of();
   scene.light_count = 1;
-  /* Straight before both squares, flat ones: the front one, half a side 1, hides 5/3 of the other, more than the
-   * camera's 7/5. */
+  /* The light is straight in front of two flat squares. The front one, with half a side of 1, hides 5/3 of the other,
+   * more than the camera's 7/5. */
   patches[0] = square(1, 0, 0);
   memcpy(lights[0].position, (const double[3]){0, 0, -3}, sizeof lights[0].position);
   const struct render_options options = options_of("rgb,patch");
@@ -220,14 +220,14 @@ static void shadows_are_cast(void **state)
   assert_true(dark > 0);
 }
 
-/* A light that lies on a surface is not hidden by it, whichever way its place and the shadow rays' ends are rounded. */
+/* A light on a surface is not hidden by it, however its position and the shadow rays' ends are rounded. */
 static void a_light_may_lie_on_a_surface(void **state)
 {
   (void)state;
   struct scene scene = scene_of();
   scene.light_count = 1;
   patches[0] = square(1, 0, 0);
-  for (int i = 0; i < 4; i++) { /* a floor, wider than the wall, that leans to the left */
+  for (int i = 0; i < 4; i++) { /* a floor, wider than the wall, leaning to the left */
     for (int j = 0; j < 4; j++) {
       const double x = 2.4 * j - 3.6, floor[3] = {x, 0.1 * x - 0.7, 1.3 * i - 2.1};
       memcpy(patches[0].P[i][j], floor, sizeof floor);

@@ -20,7 +20,7 @@ static struct root_set solve(const char *name, int degree, enum basis basis, con
   return out;
 }
 
-/* Whether some value's disc holds the real number. */
+/* Whether the disc of some value contains the real number. */
 static bool found(const struct root_set *roots, double at)
 {
   for (int i = 0; i < roots->count; i++)
@@ -99,7 +99,7 @@ static void exact_ends(void **state)
   }
 }
 
-/* The same polynomial written with a higher degree in Bernstein form has roots at infinity, which are not listed. */
+/* The same polynomial, written with a higher degree in Bernstein form, has roots at infinity. They are not listed. */
 static void raised_degree(void **state)
 {
   (void)state;
@@ -116,8 +116,8 @@ static void raised_degree(void **state)
   }
 }
 
-/* A root at u = 1, where the plane of u/(1-u) ends, is known as well as any other, although the change of basis
- * leaves the last coefficient in doubt. */
+/* A root at u = 1, where u/(1-u) becomes infinite, is known as well as any other, although the change of basis leaves
+ * the last coefficient uncertain. */
 static void roots_at_one(void **state)
 {
   (void)state;
@@ -137,8 +137,8 @@ static void roots_at_one(void **state)
   }
 }
 
-/* Coefficients that vanish beside the next one stand for roots near 0 and near infinity. A solver of [0,1] answers
- * those that lie there, and no other. */
+/* Coefficients far smaller than their neighbours mean roots near 0 and near infinity. A solver of [0,1] returns those
+ * that lie there, and no others. */
 static void extremes_beside_the_interval(void **state)
 {
   (void)state;
@@ -162,24 +162,24 @@ static void extremes_beside_the_interval(void **state)
   }
 }
 
-/* A root of [0,1] that lies next to where an interval ends in a coefficient without a sign. */
+/* A root of [0,1] next to the end of an interval where a coefficient's sign is unknown. */
 static void roots_next_to_open_ends(void **state)
 {
   (void)state;
-  /* c[0] may be -5e-12 as well */
+  /* c[0] may also be -5e-12 */
   const double end[] = {1e-12, 1.0, 1.0}, end_error[] = {1e-11, 0.0, 0.0};
   assert_true(found_all(2, BASIS_BERNSTEIN, end, end_error, 5e-12));
-  /* c[1] may be -2.53e-11, the others as small as can be: the pair at 0 is as far apart as it gets */
+  /* c[1] may be -2.53e-11, with the others as small as possible: then the pair at 0 is as far apart as it can be */
   const double pair[] = {0.0, 0.0, 1.0}, pair_error[] = {0x1p-35, 0x1p-35, 0x1p-35};
   assert_true(found_all(2, BASIS_BERNSTEIN, pair, pair_error, 5.3948092348877005e-06));
-  /* product of (u - 1/2 - 16^-k), k = 1 ... 11, rounded: the largest root is behind a stretch that is not decided */
+  /* product of (u - 1/2 - 16^-k), k = 1 ... 11, rounded: the largest root lies behind an undecided stretch */
   const double tower[] = {-0.0005538962869768103, 0.012053466000110459, -0.11921418234380377, 0.707374498982631,
                           -2.7979046910829592,    7.745809270436902,    -15.31524554494498,   21.62735319655019,
                           -21.376176534431394,    14.083594771241811,   -5.566666666666663,   1.0};
   assert_true(found_all(11, BASIS_POWER, tower, NULL, 0.56255857303151413));
 }
 
-/* Random real roots and pairs: every solver finds every real root in [0,1]; all agree. */
+/* Random real roots and pairs: every solver finds every real root in [0,1], and all solvers agree. */
 static void random_roots(void **state)
 {
   (void)state;
@@ -208,7 +208,7 @@ static void random_roots(void **state)
       n += m;
       memcpy(c, product, sizeof c);
     }
-    /* The roots above are those of the unrounded product: one rounding a product and a sum, for each of the factors. */
+    /* The roots above are those of the unrounded product: one rounding for a product and one for a sum, per factor. */
     double error[POLYNOMIAL_MAX_DEGREE + 1];
     for (int k = 0; k <= degree; k++) error[k] = 0x1p-45;
     for (size_t s = 0; s < solver_count(); s++) {
@@ -222,7 +222,7 @@ static void random_roots(void **state)
   }
 }
 
-/* `start previous` along a family whose two real roots meet and part as a complex pair, and back. */
+/* `start previous` along a family whose two real roots meet, become a complex pair, and return. */
 static void warm_start(void **state)
 {
   (void)state;
@@ -248,7 +248,7 @@ static void warm_start(void **state)
         assert_true(found(&roots, 0.5 + sqrt(-height)));
       }
     }
-    /* All starts equal, and of another number than the roots: as good as any. */
+    /* All starts are equal, and not as many as the roots: they are as good as any. */
     const double cube[] = {-1.0, 0.0, 0.0, 1.0};
     const struct polynomial p = {3, BASIS_POWER, cube, NULL};
     for (int count = 2; count <= 3; count++) {
@@ -261,8 +261,8 @@ static void warm_start(void **state)
   }
 }
 
-/* The largest radius of all solvers' roots next to `at`, of that polynomial, as it is and in Bernstein form; INFINITY where one
- * has another status. */
+/* The largest radius, over all solvers, of the root next to `at`, of this polynomial and of its Bernstein form;
+ * INFINITY if one has another status. */
 static double largest_radius(int degree, const double c[], double at, enum root_status status)
 {
   const struct polynomial power = {degree, BASIS_POWER, c, NULL};
@@ -282,7 +282,7 @@ static double largest_radius(int degree, const double c[], double at, enum root_
   return largest;
 }
 
-/* A radius that is true is of no use if it is large. */
+/* A true radius is useless if it is large. */
 static void radii_are_small(void **state)
 {
   (void)state;
@@ -292,14 +292,14 @@ static void radii_are_small(void **state)
   assert_true(largest_radius(4, c, 0.5, ROOT_CLUSTER) < 1e-3);
 }
 
-/* The unknown measured in units of 2^size: the same roots, in those units, with the same statuses, as long as the
+/* Measured in units of 2^size, the unknown has the same roots, in those units, with the same statuses, as long as the
  * coefficients are doubles. */
 static void sizes(void **state)
 {
   (void)state;
   const double c[][5] = {{-1.0, 0.0, 0.0, 0.0, 1.0}, {3.0, -2.0, 0.5, 7.0, -1.0}, {0.25, 0.5, 8.0, -0.125, 1.0}};
   for (size_t i = 0; i < solver_count(); i++) {
-    if (solver_at(i)->real_only) continue; /* [0,1] is no interval in other units */
+    if (solver_at(i)->real_only) continue; /* [0,1] is no interval of theirs in other units */
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) {
       const struct root_set plain = solve(solver_at(i)->name, 4, BASIS_POWER, c[k], NULL);
       for (int size = -255; size <= 255; size += 17) {
@@ -318,7 +318,7 @@ static void sizes(void **state)
   }
 }
 
-/* A root that is no double is missing, and takes nothing from the others. */
+/* A root beyond the range of doubles is missing, and does not disturb the others. */
 static void beyond_doubles(void **state)
 {
   (void)state;
@@ -337,12 +337,14 @@ static void beyond_doubles(void **state)
   }
 }
 
-/* Where roots are far apart, values next to the small ones are, squared, below all doubles: they are no zeros for it. */
+/* If roots are far apart, the squares of values next to the small ones underflow; these values must not be taken for
+ * zeros. */
 static void small_beside_large(void **state)
 {
   (void)state;
   const double s = 0x1p-430, root[] = {s, 2.0 * s, 1.0, -3.0, 1.0 / s};
-  const double q[] = {0.0, -6.0 * s * s, 9.0 * s, -3.0, 2.0, 1.0, 0.0}; /* x times the four small ones' polynomial */
+  const double q[] = {0.0, -6.0 * s * s, 9.0 * s, -3.0,
+                      2.0, 1.0,          0.0}; /* x times the polynomial of the four small roots */
   double c[6];
   for (int k = 0; k < 6; k++) c[k] = q[k] - q[k + 1] / s;
   for (size_t i = 0; i < solver_count(); i++) {
@@ -359,7 +361,7 @@ static void small_beside_large(void **state)
   }
 }
 
-/* 2^-354 is the root of x^3 - 2^-1062. Just beside it, underflow rounds the cube to 2^-1062 all the same. */
+/* 2^-354 is the root of x^3 - 2^-1062. Just beside it underflow still rounds the cube to 2^-1062. */
 static void underflow_is_in_the_radius(void **state)
 {
   (void)state;
@@ -371,7 +373,7 @@ static void underflow_is_in_the_radius(void **state)
   assert_true(roots.root[0].radius >= beside);
 }
 
-/* Methods that divide by the differences of their values get none that are equal. */
+/* Methods that divide by differences of their values are never given equal ones. */
 static void equal_warm_starts_are_parted(void **state)
 {
   (void)state;
@@ -385,7 +387,7 @@ static void equal_warm_starts_are_parted(void **state)
   }
 }
 
-/* The steps that all roots took, and the roots themselves. */
+/* The number of steps of all roots; also returns the roots. */
 static int steps(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                  struct root_set *out)
 {
@@ -395,14 +397,14 @@ static int steps(const struct polynomial *p, const struct solver_options *option
   return all;
 }
 
-/* `start previous` begins at the previous roots, in whatever unit roots are sought, and leaves the new ones; `start
+/* `start previous` begins at the previous roots, in whatever unit roots are sought, and stores the new ones. `start
  * cold` ignores them. */
 static void warm_start_is_where_roots_were(void **state)
 {
   (void)state;
   const double plain[] = {-20.0, 22.0, 2.0, -5.0, 1.0}; /* 1, -2, 3 + i, 3 - i */
   for (size_t s = 0; s < solver_count(); s++) {
-    if (solver_at(s)->real_only) continue; /* it needs no start */
+    if (solver_at(s)->real_only) continue; /* needs no start */
     for (int size = -40; size <= 40; size += 40) {
       double c[5];
       for (int j = 0; j < 5; j++) c[j] = ldexp(plain[j], -j * size);
@@ -419,7 +421,7 @@ static void warm_start_is_where_roots_were(void **state)
         double nearest = INFINITY;
         for (int j = 0; j < warm.count; j++)
           nearest = fmin(nearest, hypot(warm.re[j] - roots.root[k].re, warm.im[j] - roots.root[k].im));
-        assert_true(nearest <= 2 * roots.root[k].radius); /* where it is within the error a root is put on the axis */
+        assert_true(nearest <= 2 * roots.root[k].radius); /* a root within its error of the axis is put on the axis */
       }
       assert_true(2 * steps(&p, &options, &warm, &roots) < cold);
       options.start = START_COLD;
@@ -428,7 +430,7 @@ static void warm_start_is_where_roots_were(void **state)
   }
 }
 
-/* Of 1, 2 and 6 the centroid is 3, and about that Cauchy's equation r^3 = 7 r + 6. */
+/* 1, 2 and 6 have the centroid 3. About that Cauchy's equation is r^3 = 7 r + 6. */
 static void aberths_circle(void **state)
 {
   (void)state;
@@ -441,7 +443,7 @@ static void aberths_circle(void **state)
   }
 }
 
-/* Whatever the iteration limit, an answer comes, and its radii hold. */
+/* Whatever the limit of iterations, there is an answer, and its radii hold. */
 static void limits(void **state)
 {
   (void)state;
@@ -461,7 +463,7 @@ static void limits(void **state)
   }
 }
 
-/* Both divisions give back the other factor of an exact product. */
+/* Both divisions return the other factor of an exact product. */
 static void division(void **state)
 {
   (void)state;

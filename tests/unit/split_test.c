@@ -22,21 +22,22 @@ static double bowl(struct random *random, int i, int j)
   return 0.05 * ((i == 1 || i == 2) + (j == 1 || j == 2));
 }
 
-/* A peak that only the leaves near one corner feel. */
+/* A peak that affects only the leaves near one corner. */
 static double peak(struct random *random, int i, int j)
 {
   (void)random;
   return i == 3 && j == 3 ? 20 : 0;
 }
 
-/* Leaves of a quarter of it turn by less than a quarter; of a half of it by more, but not by much. */
+/* Leaves of a quarter of its side turn by less than a quarter; those of half its side by a little more. */
 static double cup(struct random *random, int i, int j)
 {
   (void)random;
   return 0.11 * ((i == 1 || i == 2) + (j == 1 || j == 2));
 }
 
-/* Leaves of an eighth of it turn by less than a quarter, of a quarter by less than 0.42, of a half by less than 0.84. */
+/* Leaves of an eighth of its side turn by less than a quarter, of a quarter by less than 0.42, of half by less than
+ * 0.84. */
 static double deep_cup(struct random *random, int i, int j) { return 4 * cup(random, i, j); }
 
 /* Bent along u only. */
@@ -49,7 +50,7 @@ static double page(struct random *random, int i, int j)
 /* A third of a pipe. */
 static double gutter(struct random *random, int i, int j) { return 6 * page(random, i, j); }
 
-/* How wide, beside its length, what ends in a point at u = 0 is; 0: nothing does. */
+/* The width, relative to the length, of a patch that is a point at u = 0; 0: it is none. */
 static double pointed;
 
 static double cone(struct random *random, int i, int j)
@@ -58,8 +59,8 @@ static double cone(struct random *random, int i, int j)
   return i / 3.0 * 0.5 * pointed * (j == 1 || j == 2);
 }
 
-/* How the first of `count` patches is cut, all of that height and length and `apart` along x and z; NULL: of random points in a
- * cube. And the one in the middle. */
+/* How the first and the middle one of `count` patches are cut. All have this height and length, and follow each other
+ * by `apart` along x and z. If z is NULL, their points are random in a cube. */
 static void cut_of(height *z, double length, size_t count, const double apart[2], int split[2], int middle[2])
 {
   struct random random = {SEED};
@@ -86,7 +87,7 @@ static void cut_of(height *z, double length, size_t count, const double apart[2]
   free(scene.patches);
 }
 
-/* Of patches all of which are cut alike, in both directions. */
+/* The cut of patches that are all cut alike, and in both directions. */
 static int split_of_apart(height *z, size_t count, const double apart[2])
 {
   int split[2], middle[2];
@@ -108,7 +109,7 @@ static void patches_are_cut_as_far_as_they_bend(void **state)
   assert_int_equal(split_of(NULL, 1), 32);
 }
 
-/* Leaves have their price in memory: half a million at most. */
+/* Leaves cost memory: at most half a million are made. */
 static void many_patches_are_cut_less(void **state)
 {
   (void)state;
@@ -117,8 +118,8 @@ static void many_patches_are_cut_less(void **state)
   assert_int_equal(split_of(NULL, 2 * MANY), 2);
 }
 
-/* Side by side they are small in any picture; one above the other, if not so near that their leaves are in one another's boxes, no
- * more of their leaves are seen than of one patch's. */
+/* Patches side by side are small in any picture. Of patches in a stack no more leaves are seen than of one patch,
+ * unless they are so near that their leaves lie in one another's boxes. */
 static void patches_side_by_side_are_cut_less(void **state)
 {
   (void)state;
@@ -133,8 +134,8 @@ static void patches_side_by_side_are_cut_less(void **state)
   assert_int_equal(split_of(deep_cup, 10000), 2);
 }
 
-/* Sheets in a stack overlap one another's boxes: they are cut finer along the parameter that bends, as far as leaves
- * go. */
+/* Sheets in a stack overlap one another's boxes. They are cut finer along the parameter that bends, as far as the
+ * number of leaves allows. */
 static void sheets_in_a_stack_are_cut_finer(void **state)
 {
   (void)state;
@@ -152,7 +153,7 @@ static void sheets_in_a_stack_are_cut_finer(void **state)
   assert_in_range(middle[0] * middle[1], 2, (1 << 19) / MANY);
 }
 
-/* A patch that bends across its long side is cut across, however long it is; a flat one is not. */
+/* A patch that bends across its long side is cut along it, however long it is; a flat one is not. */
 static void rods_are_cut_across(void **state)
 {
   (void)state;
@@ -169,7 +170,7 @@ static void rods_are_cut_across(void **state)
   }
 }
 
-/* A cone's side is cut on the way to its pole, though it does not bend along that. */
+/* A cone's side is cut on the way to its pole, although it is straight along it. */
 static void cones_are_cut_before_poles(void **state)
 {
   (void)state;

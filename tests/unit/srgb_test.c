@@ -8,7 +8,7 @@
 static void known_values(void **state)
 {
   (void)state;
-  /* IEC 61966-2-1: the ends, the linear part, and middle grey to the standard's own precision. */
+  /* IEC 61966-2-1: the ends, the linear part, and middle grey within the standard's own precision. */
   assert_true(srgb_encode(0) == 0 && fabs(srgb_encode(1) - 1) < 1e-15);
   assert_true(fabs(srgb_encode(0.001) - 0.01292) < 1e-15);
   assert_true(fabs(srgb_encode(0.5) - 0.735356983052) < 1e-11);
@@ -50,7 +50,7 @@ static void every_code_survives(void **state)
   }
 }
 
-/* The table answers what the formula rounds to, on both sides of every bound and in between. */
+/* The table returns the formula's rounded value, on both sides of every bound and in between. */
 static void table_is_the_formula(void **state)
 {
   (void)state;

@@ -36,7 +36,7 @@ static void a_failure_is_not_lost(void **state)
   }
 }
 
-/* Of the calls of pthread_create so many go well. */
+/* This many calls of pthread_create succeed. */
 static int startable = INT_MAX;
 
 int __real_pthread_create(pthread_t *id, const pthread_attr_t *attributes, void *(*run)(void *), void *argument);
@@ -46,7 +46,7 @@ int __wrap_pthread_create(pthread_t *id, const pthread_attr_t *attributes, void 
   return startable-- > 0 ? __real_pthread_create(id, attributes, run, argument) : EAGAIN;
 }
 
-/* A team that is not complete fails: what its missing members would have done is not done. */
+/* A team that lacks a thread fails, and the missing members' work is not done. */
 static void a_missing_thread_is_told(void **state)
 {
   (void)state;
@@ -58,7 +58,7 @@ static void a_missing_thread_is_told(void **state)
   for (int k = 0; k < WORKERS; k++) assert_int_equal(work.times[k], k > 0 && k < WORKERS - 1);
 }
 
-/* Numbers of threads begin where it is said, and the first that failed is told of. */
+/* Workers are numbered from the given first one, and the first failure is returned. */
 static void they_are_joined(void **state)
 {
   (void)state;
@@ -69,7 +69,7 @@ static void they_are_joined(void **state)
   for (int k = 0; k < WORKERS; k++) assert_int_equal(work.times[k], k > 0);
 }
 
-/* With little stack the work is done in a thread that has more; signals come as before when it has ended. */
+/* If the stack is small, the work is done in a thread with a larger one. Afterwards the signal mask is as before. */
 static enum status fill_stack(void *context, size_t worker)
 {
   volatile char much[3 << 20];

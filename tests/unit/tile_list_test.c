@@ -47,7 +47,7 @@ static void pieces_have_each_pixel_once(void **state)
   }
 }
 
-/* Tiles that follow each other are neighbours wherever the picture is a square of 2^n tiles. */
+/* Tiles that follow each other are neighbours if the picture is a square of 2^n tiles. */
 static void the_order_is_a_walk(void **state)
 {
   (void)state;
@@ -62,8 +62,8 @@ static void the_order_is_a_walk(void **state)
   tile_list_destroy(&list);
 }
 
-/* A picture dear on its left half, in a disc or towards its lower edge: no piece has 15 % more to do than the mean, for
- * any N up to 30 of 60 x 40 tiles. In rows one has 27 % more. */
+/* A picture expensive on its left half, in a disc, or towards its lower edge: no piece has 15 % more work than the
+ * mean, for any N up to 30 of 60 x 40 tiles. If pieces were rows, one would have 27 % more. */
 static void pieces_are_equally_dear(void **state)
 {
   (void)state;

@@ -17,7 +17,7 @@ static struct transform_angles angles; /* known to all tests */
 
 static quad value(struct double_double a) { return (quad)a.hi + (quad)a.lo; }
 
-/* The sine of so many degrees, at most 90, by its series. */
+/* The sine of at most 90 degrees, by its series. */
 static quad sine(double degrees)
 {
   const quad pi = (quad)0x1.921fb54442d18p+1 + (quad)0x1.1a62633145c07p-53 + (quad)-0x1.f1976b7ed8fbcp-109;
@@ -50,7 +50,8 @@ static void sines_and_cosines_are_right_to_their_bound(void **state)
     const double error = (double)quad_abs(value(t.A[0][1]) / sine(degrees) - 1);
     if (error > worst) worst = error;
     assert_true(value(t.A[1][0]) == -value(t.A[0][1]) && value(t.A[0][0]) == value(t.A[1][1]));
-    if (rest == 0 || rest + fabs(degrees) != 90 || 90 - rest != fabs(degrees)) continue; /* rounded */
+    if (rest == 0 || rest + fabs(degrees) != 90 || 90 - rest != fabs(degrees))
+      continue; /* the difference was rounded */
     const double other = (double)quad_abs(value(t.A[0][0]) / sine(rest) - 1);
     if (other > worst) worst = other;
   }
@@ -69,7 +70,7 @@ static void quarters_are_exact(void **state)
   }
 }
 
-/* What is kept of other angles, a quarter more or less, changes nothing. */
+/* Angles that are kept already, or kept a quarter turn more or less, change nothing. */
 static void whole_degrees_are_what_they_are_alone(void **state)
 {
   (void)state;
@@ -82,7 +83,7 @@ static void whole_degrees_are_what_they_are_alone(void **state)
   }
 }
 
-/* Rotations, now and then by a quarter only, and moves. */
+/* Rotations, sometimes by quarter turns only, and translations. */
 static struct transform some(struct random *random)
 {
   struct transform t;
@@ -111,7 +112,7 @@ static void all_instruction_sets_round_alike(void **state)
     plain->rotation(turns, &none, &same), transform_rotation(turns, &angles, &turned);
     assert_memory_equal(turned.A, same.A, sizeof same.A);
     transform_rotation((double[]){turns[1], turns[0], turns[2]}, &angles, &turned);
-    transform_rotation(turns, &angles, &turned); /* known by now */
+    transform_rotation(turns, &angles, &turned); /* kept by now */
     assert_memory_equal(turned.A, same.A, sizeof same.A);
     transform_row p, q, r;
     for (int k = 0; k < 12; k++) p[k / 3][k % 3] = random_between(&random, -9, 9);
@@ -120,7 +121,7 @@ static void all_instruction_sets_round_alike(void **state)
   }
 }
 
-/* A point is the nearest double of what quadruple precision makes of it, which is as good as never a tie. */
+/* A point is the double nearest to the result in quadruple precision, which is practically never a tie. */
 static void points_are_rounded_once(void **state)
 {
   (void)state;
@@ -139,7 +140,7 @@ static void points_are_rounded_once(void **state)
   }
 }
 
-/* If the sum of two ways is no double, neither is lost: no point is moved by the rounded sum. */
+/* If the sum of two translations is no double, neither is lost: no point is moved by the rounded sum. */
 static void ways_are_added_exactly(void **state)
 {
   (void)state;

@@ -16,7 +16,7 @@ static void random_net(struct random *random, net P)
   for (int n = 0; n < 48; n++) P[n / 12][n / 3 % 4][n % 3] = random_between(random, -1, 1);
 }
 
-/* Nets, and then a twin of each. */
+/* Nets, followed by a twin of each. */
 static void every_twin_is_found(void **state)
 {
   (void)state;
@@ -36,7 +36,7 @@ static void every_twin_is_found(void **state)
   }
 }
 
-/* One number is not the same: of a border, or of an inner point. */
+/* One different number, of a border or an inner point, makes no twin. */
 static void nearly_is_not_the_same(void **state)
 {
   (void)state;
