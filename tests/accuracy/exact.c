@@ -10,20 +10,20 @@
 #include "accuracy/exact_point.h"
 #include "accuracy/exact_quick.h"
 
-/* Of balls: what most roots take, and what the next ones take, from step to step 4 times as much. */
+/* Bits of balls: enough for most roots, and for the next ones. Each step after these takes 4 times as many. */
 enum { FIRST_PRECISION = 128, SECOND_PRECISION = 768 };
 
-/* t is told to twice the digits of a double where so many bits of it are known. */
+/* t is told to twice a double's digits if this many bits of it are known. */
 enum { T_BITS = 100 };
 
-/* Where the two nets are multiples of one, or vanish on one line, there is a curve in common, and little to be proven by
- * more boxes than these; it is looked for where so many have not been enough. */
+/* If the nets are multiples of one, or vanish on one line, there is a common curve, and more boxes than CURVE_BOXES
+ * prove little. It is looked for after SUSPICIOUS_BOXES. */
 enum { CURVE_BOXES = 400, SUSPICIOUS_BOXES = 64 };
 
-/* A root is looked for with balls where Newton's method ends this near to the part, relative to its size. */
+/* A root is sought with balls if Newton's method ends this near to the part, relative to its size. */
 #define NEAR_PART 0x1p-30
 
-/* Where an exact root can not be told from a double one, so many times more is looked at it from nearer. */
+/* If an exact root cannot be told from a double one, it is looked at from nearer this many times more. */
 enum { HOPELESS_ZOOMS = 3 };
 
 enum { MOST_HALVINGS = 1200, PARTS = 4 * EXACT_BOXES };
@@ -34,14 +34,14 @@ struct search {
   struct box whole; /* the patch */
   size_t known;     /* proven roots that have a ball: */
   arb_t at[EXACT_MOST_ROOTS][2];
-  struct quick parts[PARTS]; /* those of the boxes that are being looked at, one box after the other */
+  struct quick parts[PARTS]; /* of the boxes being looked at, one box after the other */
 };
 
 /* ---- roots of a box ---- */
 
 static double double_of(const arb_t x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
 
-/* A parameter of the whole patch, and back. */
+/* From a box's parameter to that of the whole patch, and back. */
 static void to_whole(const fmpz *corner, int halved, const arb_t at, arb_t out)
 {
   arb_add_fmpz(out, at, corner, ARF_PREC_EXACT);
@@ -71,7 +71,7 @@ static struct exact_root *add_root(struct search *s)
   return NULL;
 }
 
-/* A range of t in which nothing is known; where there is no room, the last one is made longer. */
+/* Adds a range of t in which nothing is known. If there is no room, the last one is extended instead. */
 static void add_unknown(struct search *s, double u, double v, double low, double high)
 {
   struct exact_root *root = add_root(s);
@@ -83,7 +83,7 @@ static void add_unknown(struct search *s, double u, double v, double low, double
   *root = (struct exact_root){.u = root->u, .v = root->v, .t = fmin(root->t, low), .t_end = fmax(root->t_end, high)};
 }
 
-/* The value of net T of a box, a ball, as t. */
+/* t for a value, a ball, of the box's net T. */
 static void t_of(const struct search *s, const struct box *box, const arb_t value, arb_t out)
 {
   arb_mul(out, value, s->interval.unit, UNIT_PRECISION);
@@ -103,8 +103,8 @@ static int after(const struct box *box, const arb_t x, const fmpz_t end)
   return sign;
 }
 
-/* Adds the one root in the balls at_u, at_v of the box, if it is within patch and interval. False: more precision is
- * needed. */
+/* Adds the only root in the balls at_u, at_v of the box, if it is within patch and interval. False if that takes more
+ * precision. */
 static bool accept(struct search *s, const struct box *box, const arb_t at_u, const arb_t at_v, long bits, bool last)
 {
   const enum side side = ball_side(box, at_u, at_v);
@@ -127,7 +127,7 @@ static bool accept(struct search *s, const struct box *box, const arb_t at_u, co
   arb_t t;
   arb_init(t);
   t_of(s, box, jet.value, t);
-  if (!last && arb_rel_accuracy_bits(t) < T_BITS) { /* next to the ray's start less is known of t than of u and v */
+  if (!last && arb_rel_accuracy_bits(t) < T_BITS) { /* next to the ray's start t is known less well than u and v */
     arb_clear(t), ball_jet_clear(&jet);
     return false;
   }
@@ -169,8 +169,8 @@ static bool near_part(const struct place *place, const arb_t u, const arb_t v)
   return place ? near_place(place, 0, u) && near_place(place, 1, v) : near_box(u) && near_box(v);
 }
 
-/* Whether the root that the box, or `place`, has in it or next to it, of which there is but one, is listed: that of another
- * part, on the line where both meet or next to that. Not seen of parts that are as small as what is unknown of it. */
+/* Whether the only root in the box or `place`, or next to it, is listed: as that of another part, on the line where
+ * both meet or next to it. Fails for parts as small as the root's own uncertainty. */
 static bool is_known(const struct search *s, const struct box *box, const struct place *place)
 {
   bool found = false;
@@ -185,8 +185,8 @@ static bool is_known(const struct search *s, const struct box *box, const struct
   return found;
 }
 
-/* From the point (u,v) of the box, which has at most one root in it or next to it, or has so in `place`: whether that is
- * done with. F: two independent combinations of the box's nets. */
+/* Starts at (u,v) of the box, in or next to which (or `place`) is at most one root. Returns whether that is settled. F:
+ * two independent combinations of the box's nets. */
 static bool settle_one(struct search *s, const struct box *box, const fmpz (*F)[16], const struct place *place, arb_t u,
                        arb_t v)
 {
@@ -219,7 +219,7 @@ static bool outside_interval(const struct search *s, const struct box *box)
   return before || behind;
 }
 
-/* Whether the box is done with: no root in it, or its only one known. */
+/* Whether the box is done with: it has no root, or only one that is known. */
 static bool settle(struct search *s, const struct box *box)
 {
   if (net_sign(box->c[A]) || net_sign(box->c[B]) || outside_interval(s, box)) return true;
@@ -244,11 +244,11 @@ struct view {
   const fmpz (*F)[16]; /* its nets A and B, or two independent combinations of them */
   slong unit;          /* of net T, see quick_start */
   double ends[2];      /* of the interval */
-  size_t base;         /* its first part */
-  int zooms;           /* how many more times parts of it may be looked at from nearer */
+  size_t base;         /* of its first part */
+  int zooms;           /* how many more times its parts may be looked at from nearer */
 };
 
-/* Gives up a part. */
+/* Leaves a part undecided. */
 static void give_up_part(struct search *s, const struct view *view, const struct quick *part)
 {
   double range[2] = {INFINITY, -INFINITY}, at[2];
@@ -270,7 +270,7 @@ static void give_up_part(struct search *s, const struct view *view, const struct
 
 /* ---- edges met exactly ---- */
 
-/* Where both polynomials vanish on a border all its points are roots: adds them, and divides them out. */
+/* If both polynomials vanish on a border, all its points are roots. Adds them, and divides them out. */
 static void strip_edges(struct search *s)
 {
   struct box *box = &s->whole;
@@ -314,7 +314,7 @@ static void strip_edges(struct search *s)
 
 /* ---- the search ---- */
 
-/* Whether the only root that may be in the part, near `at`, is known; or known to be none. */
+/* Whether the only root that the part may have, near `at`, is known, or known not to exist. */
 static bool settle_part(struct search *s, const struct view *view, const struct place *place, const double at[2])
 {
   for (int k = 0; k < 2; k++)
@@ -328,7 +328,7 @@ static bool settle_part(struct search *s, const struct view *view, const struct 
   return done;
 }
 
-/* Puts that one of them first which begins first on the ray: where a curve in common begins matters most. */
+/* Moves the part that begins first on the ray to the front: where a common curve begins matters most. */
 static void nearest_first(struct quick *parts, size_t count)
 {
   size_t nearest = 0;
@@ -350,7 +350,8 @@ static void view_start(const struct search *s, struct view *view, struct quick *
 
 static void zoom(struct search *s, const struct view *view, const struct quick *part, size_t base);
 
-/* The whole patch breadth first; where there is a curve in common, what begins first is halved first, and less. */
+/* Searches the whole patch breadth first. If there is a common curve, halves the part that begins first, and uses fewer
+ * boxes. */
 static void look(struct search *s, struct view *view)
 {
   const bool top = view->box == &s->whole, dependent = top && box_dependent(&s->whole);
@@ -371,7 +372,7 @@ static void look(struct search *s, struct view *view)
       curve = true, most = s->out->boxes + CURVE_BOXES;
     const bool spent = verdict == QUICK_SPENT;
     if (spent && !curve && view->zooms > 0) {
-      parts[hidden++] = *part; /* for later: there is room for it where parts are done with */
+      parts[hidden++] = *part; /* for later: parts that are done with leave room for it */
     } else if (spent || ++s->out->boxes > most || view->base + count + 2 > PARTS) {
       give_up_part(s, view, part);
     } else {
@@ -389,7 +390,7 @@ static void *nearer_room(size_t size)
   return room;
 }
 
-/* The box in doubles of its own. */
+/* Looks at a box in new doubles. */
 static void look_nearer(struct search *s, const struct box *box, size_t base, int zooms)
 {
   fmpz(*F)[16] = nearer_room(2 * sizeof *F);
@@ -401,7 +402,8 @@ static void look_nearer(struct search *s, const struct box *box, size_t base, in
   free(F);
 }
 
-/* What rounding hides in a part: its exact nets, in new doubles. Where it is all of a box that is halved exactly. */
+/* Looks, in new doubles, at the exact nets of a part in which rounding hides the answer. If the part is the whole box,
+ * this is halved exactly. */
 static void zoom(struct search *s, const struct view *view, const struct quick *part, size_t base)
 {
   const struct box *box = view->box;
@@ -412,7 +414,7 @@ static void zoom(struct search *s, const struct view *view, const struct quick *
   }
   const bool all = halved[0] + halved[1] == 0;
   if (all && settle(s, box)) return;
-  struct box *half = nearer_room(2 * sizeof *half); /* not on the stack, for these calls lie within each other */
+  struct box *half = nearer_room(2 * sizeof *half); /* not on the stack, since these calls are nested */
   box_init(&half[0]), box_init(&half[1]);
   if (all) {
     box_split(box, box_changes_along_v(box), &half[0], &half[1]);

@@ -1,12 +1,12 @@
-/* The ball arithmetic of exact.c: Newton's and Krawczyk's method on a pair of bicubics, and on which side of its patch's
- * border a root lies. */
+/* The ball arithmetic of exact.c: Newton's and Krawczyk's method on a pair of bicubics, and on which side of its
+ * patch's border a root lies. */
 #include "accuracy/exact_ball.h"
 
 #include <math.h>
 
 #include "accuracy/exact_quick.h"
 
-/* Newton's method starts within the box, so these are plenty. */
+/* The start is within the box, so these are plenty. */
 enum { NEWTON_STEPS = 40 };
 
 void ball_jet_init(struct ball_jet *jet) { arb_init(jet->value), arb_init(jet->ds), arb_init(jet->dt); }
@@ -49,7 +49,7 @@ void ball_evaluate(const fmpz *c, const arb_t s, const arb_t t, struct ball_jet 
   arb_clear(row), arb_clear(row_t);
 }
 
-/* step = Y F at the middles of s and t, Y the inverse Jacobian there, whose middles are kept. */
+/* step = Y F at the middles of s and t. Y is the inverse Jacobian there; its middles are kept. */
 static bool newton_step(const fmpz (*F)[16], const arb_t s, const arb_t t, arb_t Y[4], arb_t step[2], long bits)
 {
   struct ball_jet f[2];
@@ -71,7 +71,7 @@ static bool newton_step(const fmpz (*F)[16], const arb_t s, const arb_t t, arb_t
   return good;
 }
 
-/* Krawczyk's test on the square of half-width r around (s,t): on success both become balls that hold exactly one
+/* Krawczyk's test on the square of half-width r about (s,t). On success both become balls that contain exactly one
  * root. */
 static bool krawczyk(const fmpz (*F)[16], arb_t s, arb_t t, arb_t Y[4], arb_t step[2], const mag_t r, long bits)
 {
@@ -182,7 +182,7 @@ static int edge_sign(const fmpz *const c[4], const arb_t t, bool upper)
   return sign;
 }
 
-/* Whether the one root next to a border, `along` it, is exactly on it: both nets are multiples of one cubic there, and
+/* Whether the only root next to a border, at `along` it, lies exactly on it: there both nets are multiples of one cubic
  * that changes its sign within the ball. */
 static bool exactly_on(const struct box *box, int border, const arb_t along)
 {

@@ -6,7 +6,8 @@
 
 #include "base/wide.h"
 
-/* Bits of the entries of a preconditioner (enough for a patch that is a line but for rounding), and see net_dominates. */
+/* Bits of a preconditioner's entries (enough for a patch that is a line up to rounding); for MARGIN see
+ * net_dominates. */
 enum { PRECONDITIONER_BITS = 192, MARGIN = 30 };
 
 void nets_init(fmpz *c, int count)
@@ -32,7 +33,7 @@ void box_clear(struct box *box)
   fmpz_clear(&box->u), fmpz_clear(&box->v);
 }
 
-/* The exponent of the last bit of x, or `other` where that is less or x is 0. */
+/* The exponent of the last bit of x, or `other` if that is less or x is 0. */
 static int last_bit(double x, int other)
 {
   int exponent;
@@ -51,7 +52,7 @@ static void scaled(double x, int exponent, fmpz_t out)
   if (m != 0) fmpz_mul_2exp(out, out, (ulong)(own - 53 - exponent));
 }
 
-/* Where t lies in the unit of net T: t |d|^2 2^(direction's exponent - coordinates'). */
+/* t in the unit of net T: t |d|^2 2^(direction's exponent - coordinates'). */
 static void t_scaled(double t, const fmpz_t square, int shift, fmpz_t out)
 {
   int own;
@@ -61,8 +62,8 @@ static void t_scaled(double t, const fmpz_t square, int shift, fmpz_t out)
   if (m != 0) fmpz_mul_2exp(out, out, (ulong)(own - 53 + shift));
 }
 
-/* The axis along which the ray is longest beside the patch. Any one that it moves along would do, but for a patch that is
- * a line to 192 bits the two planes along it would be one to so many. */
+/* The axis along which the ray is longest relative to the patch. Any axis along which it moves would do. But if the
+ * patch is a line to 192 bits, the two planes along another one could be equal to as many bits. */
 static int crossed_axis(const double P[4][4][3], const double d[3])
 {
   int k = 0;
@@ -92,7 +93,7 @@ void box_of_patch(const double P[4][4][3], const double o[3], const double d[3],
   }
   if (places == 1 << 20) places = 0;
   int times = slopes - places; /* of t's integer unit */
-  int extra = 0;               /* net T has this many bits more, so that the ends are whole numbers */
+  int extra = 0;               /* additional bits of net T, so that the ends are whole numbers */
   for (int n = 0; n < 2; n++)
     if (isfinite(ends[n]) && ends[n] != 0 && last_bit(ends[n], 1 << 20) + times < -extra)
       extra = -(last_bit(ends[n], 1 << 20) + times);
@@ -154,7 +155,7 @@ void box_split(const struct box *box, int across_v, struct box *low, struct box 
   fmpz_add_ui(&high->u, &low->u, !across_v), fmpz_add_ui(&high->v, &low->v, (ulong)across_v);
 }
 
-/* The cubic c[0], c[stride] ... from corner/N to (corner+1)/N, N = 2^halved, times N^3: its blossom at both ends. */
+/* The cubic c[0], c[stride] ... from corner/N to (corner+1)/N, N = 2^halved, times N^3, by its blossom at both ends. */
 static void cut(fmpz *c, int stride, uint64_t corner, int halved)
 {
   const ulong from = corner, size = (ulong)1 << halved;
@@ -215,8 +216,8 @@ int net_sign(const fmpz *c)
   return sign;
 }
 
-/* Mean derivatives of both nets over the box, times one factor: J[f][0] by u, J[f][1] by v. Each row is cut off to
- * PRECONDITIONER_BITS. */
+/* Mean derivatives of both nets over the box, times a common factor: J[f][0] by u, J[f][1] by v. Each row is truncated
+ * to PRECONDITIONER_BITS. */
 static void mean_jacobian(const struct box *box, fmpz J[2][2])
 {
   slong excess[2];

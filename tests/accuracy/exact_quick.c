@@ -3,15 +3,15 @@
 
 #include <math.h>
 
-/* Of one operation. */
+/* The rounding of one operation. */
 #define ROUNDING 0x1p-53
 
-/* How much more than the exact bound a bound is made, for its own rounding; and for underflow, absolute: coefficients are
- * at most 1, and products below this are far below every error. */
+/* Bounds are enlarged by this factor for their own rounding, and by this absolute term for underflow: coefficients are
+ * at most 1, and products below it are far below every error. */
 #define SLACK 1.000001
 #define TINY 0x1p-1000
 
-/* Combinations whose coefficients are all within so many errors tell nothing. */
+/* A combination whose coefficients are all within this many errors tells nothing. */
 #define TELLING 8
 
 /* As in exact.c. */
@@ -47,7 +47,7 @@ static double end_of(const fmpz_t x, slong unit, double towards)
   return nextafter(nextafter(ldexp(mantissa, power), towards), towards);
 }
 
-/* One net of it; its unit is 2^ what is returned. */
+/* Starts one net. Its unit is 2 to the power that is returned. */
 static slong net_start(const fmpz *exact, double c[16])
 {
   slong unit = 0;
@@ -55,7 +55,7 @@ static slong net_start(const fmpz *exact, double c[16])
     if ((slong)fmpz_bits(&exact[n]) > unit) unit = (slong)fmpz_bits(&exact[n]);
   for (int n = 0; n < 16; n++) {
     slong exponent;
-    const double mantissa = fmpz_get_d_2exp(&exponent, &exact[n]); /* cut off after 53 bits */
+    const double mantissa = fmpz_get_d_2exp(&exponent, &exact[n]); /* truncated to 53 bits */
     c[n] = exponent - unit > -1000 ? ldexp(mantissa, (int)(exponent - unit)) : 0;
   }
   return unit;
@@ -91,7 +91,7 @@ bool quick_empty(const struct quick *quick, const double ends[2])
   return high + SLACK * quick->error[T] + ROUNDING < ends[0] || low - SLACK * quick->error[T] - ROUNDING > ends[1];
 }
 
-/* F = x A - y B, and how far its coefficients may be from the exact ones, x and y being exact. */
+/* F = x A - y B, for exact x and y. Returns how far its coefficients may be off. */
 static double combine(const struct quick *quick, double x, double y, double F[16])
 {
   for (int n = 0; n < 16; n++) F[n] = x * quick->c[A][n] - y * quick->c[B][n];
@@ -100,7 +100,7 @@ static double combine(const struct quick *quick, double x, double y, double F[16
          TINY;
 }
 
-/* See exact.c: |dF/d own| > |dF/d other| on the part and on what is next to it. */
+/* See exact.c: |dF/d own| > |dF/d other| on the part and around it. */
 static bool dominates(const double F[16], double error, int own_is_v)
 {
   double low = INFINITY, high = -INFINITY, other = 0;
@@ -165,7 +165,7 @@ void quick_halve(const struct quick *quick, struct quick halves[2])
       const int at = across_v ? 4 * n : n;
       halve(&quick->c[f][at], across_v ? 1 : 4, &halves[0].c[f][at], &halves[1].c[f][at]);
     }
-    /* three roundings in a row, of numbers no larger than the largest; means of errors are no larger than errors */
+    /* three roundings in a row, of numbers no larger than the largest; means of errors are no larger than the errors */
     halves[0].error[f] = halves[1].error[f] = SLACK * quick->error[f] + 4 * ROUNDING * most_of(quick->c[f]);
   }
   for (int k = 0; k < 2; k++) {

@@ -49,7 +49,7 @@ static void roots_are_listed_once(void **state)
   }
 }
 
-/* Two roots that are nearer than doubles can say are two. */
+/* Two roots so near that doubles cannot tell them apart. */
 static void near_roots_are_two(void **state)
 {
   (void)state;
@@ -66,7 +66,7 @@ static void near_roots_are_two(void **state)
   }
 }
 
-/* What is said of a hit's point is proven and refuted alike from one end of the doubles to the other. */
+/* What a hit says of its point is proven and refuted alike at all sizes of doubles. */
 static void points_of_all_sizes(void **state)
 {
   (void)state;
@@ -92,7 +92,7 @@ static void points_of_all_sizes(void **state)
   }
 }
 
-/* A tube meets itself along a seam: next to it either side is the place of a hit, and no other is. */
+/* A tube meets itself along a seam. Next to it a hit's place may be on either side, and nowhere else. */
 static void places_at_a_seam(void **state)
 {
   (void)state;

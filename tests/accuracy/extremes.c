@@ -9,8 +9,8 @@
 
 enum { RAYS = SITUATION_RAYS };
 
-/* A patch long along one axis and short along another, by a factor from `thinnest` on; small next to what is far away,
- * some coordinates of its own up to 1e`farthest`; a far origin. */
+/* A patch long along one axis and short along another, by a factor from `thinnest` on; small beside its distance, or
+ * with some coordinates up to 1e`farthest`; a far origin. */
 static void uneven(struct random *random, size_t index, size_t thinnest, int farthest, struct situation *s)
 {
   static const double factors[] = {1e-160, 1e-12, 1e-9, 1e-6, 1, 1, 1e6};
@@ -44,8 +44,8 @@ static void uneven(struct random *random, size_t index, size_t thinnest, int far
 void extreme_uneven_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 1, 12, s); }
 void extreme_wild_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 0, 29, s); }
 
-/* Past a pole that is the origin by 2^-50 ... 2^-150 of its patch, from before it, next to it or behind, in any direction or
- * along the surface there; and through it. */
+/* Rays past a pole, which is the origin, at 2^-50 ... 2^-150 of its patch. They start before it, next to it or behind
+ * it, and go in any direction or along the surface there; some go through it. */
 void extreme_met_poles(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1 + index % 2;
@@ -74,7 +74,7 @@ void extreme_met_poles(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* From the ends of what a double holds. */
+/* Rays from where doubles end. */
 void extreme_far_origins(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1;
@@ -93,8 +93,8 @@ void extreme_far_origins(struct random *random, size_t index, struct situation *
   }
 }
 
-/* A ray in any direction whose start is so far away, next to the patch's size, that neither start nor direction could be
- * moved by a rounding without missing: the patch is put where the ray happens to pass. The other rays mostly miss. */
+/* A ray in any direction that starts so far from the patch, relative to its size, that a rounding of start or direction
+ * would make it miss: the patch is placed where the ray happens to pass. The other rays mostly miss. */
 void extreme_far_oblique(struct random *random, size_t index, struct situation *s)
 {
   const double far = ldexp(random_between(random, 1, 2), (int)(44 + index % 36));
@@ -115,8 +115,8 @@ void extreme_far_oblique(struct random *random, size_t index, struct situation *
   }
 }
 
-/* Rays along a diagonal, exactly, from as far as any direction allows, through many patches one behind the other: double
- * precision can leave out no leaf of any. */
+/* Rays exactly along a diagonal, from as far as each direction allows, through many patches one behind the other.
+ * Double precision can exclude no leaf of any. */
 void extreme_far_diagonal(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1 + index % MODEL_MOST_PATCHES;

@@ -19,12 +19,13 @@ enum { FULL_RAYS = 100000, LEAST_RAYS = 128, MOST_SHOWN = 4 };
 
 struct count {
   size_t rays;
-  size_t verdict, certainty, patch; /* that differ between kernels */
-  size_t place;                     /* T differs, but for the last bits of certain ones: by more than DIFFERENT */
+  size_t verdict, certainty, patch; /* these differ between kernels */
+  size_t place;                     /* T differs by more than DIFFERENT: not only the last bits of certain hits */
   size_t bits;                      /* T, U or V differ at all */
-  size_t company, occlusion;        /* an answer depends on the rays beside it; any hit is not where a closest is */
-  size_t tied;                      /* it does, in its last places, and another hit is at hand */
-  double worst;                     /* difference of T in floors, both certain */
+  size_t company,
+    occlusion;  /* an answer depends on the rays beside it; any hit is found where no closest hit is, or the reverse */
+  size_t tied;  /* it does, in its last places, with another hit at hand */
+  double worst; /* the largest difference of T in floors, of two certain hits */
 };
 
 /* T of certain answers may differ by this many floors: of one rounding of the inputs or of the patch's extent. */
@@ -72,11 +73,11 @@ static void compare(const char *class, const char *kernel, const struct referenc
 /* A hit this many floors behind or before may be found first. */
 #define TIED 256
 
-/* So near a border a hit may be found on either side of it first, in parameters of the patch. */
+/* This near a border, in parameters of the patch, a hit may be found on either side of it first. */
 #define BORDER 0x1p-40
 
-/* Whether these answers to a ray differ in last places only, and it has another hit that doubles do not tell from the first, or
- * one of a patch beside it. */
+/* Whether these answers to a ray differ in last places only, and doubles cannot tell the first hit from another one, or
+ * from one on a neighbouring patch. */
 static bool is_tied(struct trial *trial, const struct ray *ray, const struct hit *a, const struct hit *b)
 {
   if (a->patch == HIT_NONE || a->patch != b->patch || a->certainty != b->certainty) return false;

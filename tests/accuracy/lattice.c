@@ -63,7 +63,7 @@ static void ruled(struct random *random, int most, net P)
   }
 }
 
-/* Of three points in all. */
+/* A net of only three different points. */
 static void doubled(struct random *random, int most, net P)
 {
   double point[3][3];
@@ -81,7 +81,7 @@ static void patch(struct random *random, net P)
   else kinds[kind](random, most, P);
 }
 
-/* Goes on where `before` ends, sometimes without a crease. */
+/* Continues where `before` ends, sometimes without a crease. */
 static void join(struct random *random, const net before, net P)
 {
   const bool smooth = choose(random, 2);

@@ -15,14 +15,14 @@
 
 enum { FULL_RAYS = 10000000, MOST_SHOWN = 12 };
 
-/* A target is evaluated in double, so t = 1 is off by some roundings of the largest coordinate over the distance: 1e-7
- * covers a shift of 1e6 seen from 0.1 away. */
+/* A target is evaluated in doubles, so t = 1 is off by some roundings of the largest coordinate over the distance. 1e-7
+ * suffices for a shift of 1e6 seen from 0.1 away. */
 #define AT_TARGET 1e-7
 
 /* See struct placed_shares. */
 #define EXACT_SHARE 0.02
 
-/* The default solver gets all rays, the others this share. */
+/* All rays go to the default solver, this share to each of the others. */
 #define OTHERS_SHARE 0.02
 
 static void (*const models[])(struct model *) = {model_dome, model_ball, model_torus, model_teapot};
@@ -52,7 +52,8 @@ static void aim(int kind, struct random *random, double *u, double *v)
   }
 }
 
-/* One axis of the direction, or two, made zero: the ray starts straight before the target if that is still inside. */
+/* Makes one axis of the direction, or two, zero: the ray starts straight in front of the target, if that point is
+ * inside, too. */
 static void align(struct random *random, const double target[3], double origin[3])
 {
   const uint64_t bits = random_bits(random);
@@ -65,7 +66,8 @@ static void align(struct random *random, const double target[3], double origin[3
   }
 }
 
-/* Well inside, by distance from the middle as in model_inside: an aligned origin may have left the model. */
+/* Whether a point is well inside, by its distance from the middle as in model_inside. An aligned origin may have left
+ * the model. */
 static bool inside(const struct model *model, const double p[3])
 {
   const double r = sqrt(p[0] * p[0] + p[2] * p[2]);
@@ -81,9 +83,8 @@ static bool at_open_border(const struct model *model, size_t patch, double u, do
   return (open[0] && u == 0) || (open[1] && u == 1) || (open[2] && v == 0) || (open[3] && v == 1);
 }
 
-/* Half of the rays start nearer to their target: by up to this power of ten, but not so near, relative to the
- * coordinates, that rounding may take them out of the model. From within 1 % of a pole the side of a start is hard to
- * tell. */
+/* Half of the rays start nearer to their target, by up to this power of ten; but not so near, relative to the
+ * coordinates, that rounding may put them outside. Within 1 % of a pole the side of a start is hard to tell. */
 enum { NEAREST_START = 9 };
 #define INSIDE_STILL 1e-12
 
@@ -125,8 +126,8 @@ static void random_ray(const struct placed_model *at, int kind, struct random *r
   }
 }
 
-/* Whether an answer beyond the target is right all the same: rounding moves a target far along a ray that is nearly
- * tangent, and a start that is as near as that out of the model. */
+/* Whether an answer beyond the target is right nevertheless: rounding moves the target far along a ray that is nearly
+ * tangent, and puts a start outside that is as near as that to the surface. */
 static bool right_after_all(const struct trial *trial, const struct ray *ray, const struct hit *hit)
 {
   struct reference_answer truth;
@@ -173,7 +174,7 @@ static void try_packet(void *context, struct trial *trial, const struct placed_m
                        struct random *random)
 {
   struct leaks *leaks = context;
-  struct ray rays[PACKET_SIZE] = {{.t_min = 0}}; /* gcc does not know that there is one */
+  struct ray rays[PACKET_SIZE] = {{.t_min = 0}}; /* gcc does not know that there is at least one */
   for (size_t n = 0; n < count; n++) random_ray(at, kind, random, &rays[n]);
   leaks->leaks += count_leaks(trial, at->model.name, leaks->solver, kind, count, rays);
   leaks->rays += count;
@@ -211,7 +212,7 @@ static void test_other_solvers(void **state)
   assert_int_equal(leaks, 0);
 }
 
-/* Whole patches, and other numbers of leaves than the default's. */
+/* Whole patches, and numbers of leaves other than the default's. */
 static void test_splits(void **state)
 {
   (void)state;
@@ -226,8 +227,8 @@ static void test_splits(void **state)
   assert_int_equal(leaks, 0);
 }
 
-/* From a hit on the ball's inside to another point of the ball: the chord ends there and nowhere before; outwards
- * there is nothing. The ball of cubics is convex but for 3e-4 of its radius, hence the least angle. */
+/* Rays from a hit inside the ball to another point of it: the chord ends there and nowhere before. Outwards there is
+ * nothing. The ball of cubics is convex except for 3e-4 of its radius, hence the least angle. */
 static void test_leave(void **state)
 {
   (void)state;
@@ -246,7 +247,7 @@ static void test_leave(void **state)
       random_ray(&at, (int)(n % AIMS), &random, &ray);
       random_ray(&at, (int)(n / AIMS % AIMS), &random, &goal);
       tracer_closest(trial.tracer, 1, &ray, &hit);
-      if (hit.patch == HIT_NONE) continue; /* whether that is a leak, the others tell */
+      if (hit.patch == HIT_NONE) continue; /* whether that is a leak, other tests decide */
       double cosine = 0, length = 0;
       for (int axis = 0; axis < 3; axis++) {
         next.direction[axis] = goal.origin[axis] + goal.direction[axis] - hit.point[axis];

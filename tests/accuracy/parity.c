@@ -15,7 +15,7 @@ enum { FULL_RAYS = 20000000, LEAST_RAYS = 4000, MOST_SHOWN = 12 };
 /* See struct placed_shares. */
 #define EXACT_SHARE 0.1
 
-/* Each solver and form but the default gets this share of the rays. */
+/* Each solver and form except the default gets this share of the rays. */
 #define OTHERS_SHARE 0.005
 
 static void (*const models[])(struct model *) = {model_dome, model_ball, model_torus};
@@ -24,11 +24,12 @@ enum { MODELS = sizeof models / sizeof models[0] };
 static const char *const aims[] = {"edge", "corner", "pole", "eighth", "anywhere", "near edge", "near pole", "tangent"};
 enum { AIM_EDGE, AIM_CORNER, AIM_POLE, AIM_EIGHTH, AIM_ANYWHERE, AIM_NEAR_EDGE, AIM_NEAR_POLE, AIM_TANGENT, AIMS };
 
-/* Shares of the rays. Those aimed anywhere are answered by what answers nearly all rays of a picture, and take a tenth to
- * a thirtieth of the time of the others, which are mostly left to the last resort. */
+/* Shares of the rays. Those with any aim take the path of nearly all rays of a picture, and a tenth to a thirtieth of
+ * the time of the others, which mostly reach the last resort. */
 static const double aim_shares[AIMS] = {0.04, 0.02, 0.015, 0.12, 0.69, 0.05, 0.02, 0.045};
 
-/* Every model lies within this of the middle; what is inside as model_inside has it is, also moved by rounding. */
+/* Every model lies within this distance of the middle. A point that model_inside has is inside, moved by rounding or
+ * not. */
 #define OUTSIDE 4.0
 
 struct aimed {
@@ -36,8 +37,8 @@ struct aimed {
   double u, v;
 };
 
-/* What the rays of a packet have in common. Those of most packets are aimed at one eighth of one patch, from next to each
- * other, as a picture's are; those of the others have nothing in common. */
+/* What the rays of a packet have in common. In most packets they are aimed at one eighth of one patch and start next to
+ * each other, as in a picture; in the others they have nothing in common. */
 struct common {
   uint64_t patch, bits; /* bits: which border, which end */
   double cell_u, cell_v, inside[3];
@@ -68,7 +69,7 @@ static struct aimed aim(int kind, const struct model *model, const struct common
   return at;
 }
 
-/* One axis of the direction, or two, made zero. */
+/* Makes one axis of the direction, or two, zero. */
 static void align(struct random *random, double direction[3])
 {
   const uint64_t bits = random_bits(random);
@@ -91,7 +92,7 @@ static void choose_direction(int kind, const struct model *model, const struct c
   for (int k = 0; k < 3; k++) out[k] = part * along[0][k] + (1 - fabs(part)) * along[1][k] + off * out[k];
 }
 
-/* A ray through a point of the model that starts outside, or, where the point is seen from inside, there. */
+/* A ray through a point of the model that starts outside; or inside, at a point from which that one is seen. */
 static bool make_ray(const struct placed_model *in, int kind, const struct common *common, struct random *random,
                      struct ray *ray)
 {
@@ -113,7 +114,7 @@ static bool make_ray(const struct placed_model *in, int kind, const struct commo
     ray->origin[k] = origin[k];
     ray->direction[k] = target[k] - origin[k];
   }
-  /* On a line whose digits say little of the axes the start may have to be moved: exactly along them. */
+  /* The rounded start would turn the direction a little; so it is exactly along the axes. */
   if (!in->moved && !inside)
     for (int k = 0; k < 3; k++) ray->direction[k] = direction[k];
   return inside;
@@ -146,8 +147,8 @@ static void count_packet(struct trial *trial, const char *name, int kind, size_t
   }
 }
 
-/* Makes a packet and counts it. Exactly along axes, and through what they aim at, are only rays at models that are not
- * moved. */
+/* Makes a packet and counts it. Rays exactly along axes and exactly through their aims are only made for models that
+ * are not moved. */
 static void try_packet(void *context, struct trial *trial, const struct placed_model *at, int kind, size_t count,
                        struct random *random)
 {
@@ -184,8 +185,8 @@ static size_t wrong_of(const struct method *options, size_t wanted, uint64_t see
 
 /* ---- bodies with creases ---- */
 
-/* A cube, and two pyramids base to base whose faces are three-cornered, a border of each collapsed at its tip. Corners are
- * multiples of 9, so that all control points and what is aimed at are exact. */
+/* A cube, and two pyramids base to base, whose faces are triangles: each has one border collapsed at its tip. Corners
+ * are multiples of 9, so that all control points and aims are exact. */
 enum { CUBE_FACES = 6, PYRAMIDS_FACES = 8, BODY_CORNERS = 8 };
 
 static const double cube_corners[BODY_CORNERS][3] = {{-9, -9, -9}, {9, -9, -9}, {-9, 9, -9}, {9, 9, -9},
@@ -226,7 +227,7 @@ static void body_net(const struct body *body, size_t face, double out[4][4][3])
                        9;
 }
 
-/* Exactly through a corner, a point of an edge or of a face, from outside or from a point inside. */
+/* Exactly through a corner, or a point of an edge or a face, from outside or from a point inside. */
 static bool body_ray(const struct body *body, struct random *random, struct ray *ray)
 {
   const uint64_t bits = random_bits(random);
@@ -248,7 +249,8 @@ static bool body_ray(const struct body *body, struct random *random, struct ray 
   return inside;
 }
 
-/* The sharpest: rays that touch an edge or a corner from outside are grazing, those that cross it count it once. */
+/* The sharpest test: rays that touch an edge or a corner from outside are grazing, those that cross it count it
+ * once. */
 static void test_creases(void **state)
 {
   (void)state;
@@ -272,7 +274,7 @@ static void test_creases(void **state)
            bodies[which].name, count.rays, count.hits, count.wrong,
            100 * (double)count.grazing[AIM_CORNER] / (double)count.rays);
     assert_int_equal(count.wrong, 0);
-    /* Many touch the body, or lie in a face, but by no means all. */
+    /* Many touch the body, or lie in a face, but far from all. */
     assert_true(count.grazing[AIM_CORNER] < count.rays / 2);
   }
 }

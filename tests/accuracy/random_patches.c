@@ -10,7 +10,7 @@
 
 enum { FULL_RAYS = 1000000 / 3, RAYS_A_SCENE = 64, MOST_PATCHES = 6 };
 
-/* A net around a regular one in a random plane; `wild` is the size of the random part, `fold` turns every second row
+/* A net near a regular one in a random plane. `wild` is the size of the random part; `fold` turns every second row
  * back. */
 static void random_net(struct random *random, double wild, bool fold, double P[4][4][3])
 {

@@ -1,4 +1,4 @@
-/* Rays that were once answered wrongly, and their like by hand. */
+/* Rays that were once answered wrongly, and similar ones made by hand. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 typedef double net[4][4][3];
 
-/* The residuals of the last step are sums in twice the precision, on sizes of some units. */
+/* The residuals of the last step are sums in twice the precision, of terms of a few units. */
 #define TWICE_PRECISION (64 * DOUBLE_UNIT * DOUBLE_UNIT)
 
 static struct hit closest(const struct trial *trial, const double origin[3], const double direction[3])
@@ -33,14 +33,15 @@ static void bowl(net P)
   }
 }
 
-/* A flat square, 3 `scale` a side, across z at that height; the origin is so many thirds of it from the corner. */
+/* A flat square across z, with sides of 3 `scale`, at height z. The origin is this many thirds of it from the
+ * corner. */
 static void flat(double scale, double from_x, double from_y, double z, net P)
 {
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++) P[i][j][0] = scale * (i - from_x), P[i][j][1] = scale * (j - from_y), P[i][j][2] = z;
 }
 
-/* A ray that starts next to the surface, flat: whether it meets it is told by less than the error of the leaf's
+/* A ray that starts next to a flat surface. Whether it meets it depends on less than the error of the leaf's
  * polynomials. */
 static void test_start(void **state)
 {
@@ -64,7 +65,7 @@ static void test_start(void **state)
   trial_destroy(&trial);
 }
 
-/* Next to the plane in which an edge lies a parameter has more digits than the leaf's polynomials. */
+/* Next to the plane of an edge a parameter has more digits than the leaf's polynomials. */
 static void test_small_parameter(void **state)
 {
   (void)state;
@@ -84,7 +85,7 @@ static void test_small_parameter(void **state)
   trial_destroy(&trial);
 }
 
-/* A patch that is a line, met exactly: the answer is the point where the ray passes, not just any of the line. */
+/* A patch that is a line, met exactly: the answer is the point that the ray passes, not just any one of the line. */
 static void test_line(void **state)
 {
   (void)state;
@@ -107,7 +108,7 @@ static void test_line(void **state)
   trial_destroy(&trial);
 }
 
-/* Through the corner of a patch that is a line: what one combination of the planes tells badly must not blur the
+/* Through the corner of a patch that is a line: one combination of the planes is known badly, which must not blur the
  * other. */
 static void test_corner_of_line(void **state)
 {
@@ -130,7 +131,7 @@ static void test_corner_of_line(void **state)
   trial_destroy(&trial);
 }
 
-/* Exactly tangent: grazing, there. Off by far less than double precision tells, here 2^-k: proven either way. */
+/* Exactly tangent: grazing, there. Off by 2^-k, far less than doubles resolve: proven to hit or to miss. */
 static void test_tangent(void **state)
 {
   (void)state;
@@ -154,7 +155,7 @@ static void test_tangent(void **state)
       const struct hit hit = closest(&trial, origin, direction);
       assert_int_equal(hit.patch, 0);
       assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-      /* 3 (s/3)^2 = 2^-k s from the middle, for x = 3 (2u - 1) */
+      /* 3 (s/3)^2 = 2^-k at s from the middle, for x = 3 (2u - 1) */
       assert_true(fabs(hit.t - (8 - sqrt(3 * origin[2]))) < 1e-13);
     }
   }
@@ -175,10 +176,10 @@ static void ball_top(net P[2])
   }
 }
 
-/* Rays that come by a pole of a ball nearer than 113 bits tell, and nearly along the tangent plane there, meet the ball once
- * more before it: by 1e-10 of the ball, which is hit first although a wall stands between the two, or by 1e-16, where nothing
- * is looked for, since the pole is taken for met. So that such a wall is hit first is not proven then, but a wall before
- * them is. */
+/* Rays that pass a pole of a ball, nearer than 113 bits tell, and nearly along the tangent plane there, meet the ball
+ * once more before it. If that is 1e-10 of the ball before, it is hit first, although a wall stands between the two. If
+ * it is 1e-16, the pole counts as met, and nothing else is looked for there: then it is not proven that such a wall is
+ * hit first, but a wall before both is. */
 static void test_beside_met_pole(void **state)
 {
   (void)state;
@@ -204,7 +205,8 @@ static void test_beside_met_pole(void **state)
   }
 }
 
-/* A ray that starts next to the pole, nearer than 113 bits tell, and meets the ball 4e-15 of it away: that is not lost. */
+/* A ray that starts next to the pole, nearer than 113 bits tell, and meets the ball at 4e-15 of its size: that hit is
+ * not lost. */
 static void test_from_met_pole(void **state)
 {
   (void)state;
@@ -219,8 +221,8 @@ static void test_from_met_pole(void **state)
   trial_destroy(&trial);
 }
 
-/* The ray meets the surface between its start and its end, and no double lies there: t is the end, or who asks for what comes
- * behind would get the same again. */
+/* The ray meets the surface between its start and its end, and no double lies there: t is the end. Otherwise, whoever
+ * asks for the next hit would get the same one again. */
 static void test_between_doubles(void **state)
 {
   (void)state;

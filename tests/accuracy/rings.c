@@ -11,8 +11,8 @@ enum { RAYS = SITUATION_RAYS };
 
 /* ---- pieces ---- */
 
-/* A ray along d through a point at the distance `off` from `at`, that starts before it: next to it or far, or a little
- * behind. */
+/* A ray along d through a point at the distance `off` from `at`. It starts before that point, next to it or far away,
+ * or a little behind it. */
 static void ray_past(struct random *random, const double at[3], double off, double size, const double d[3],
                      struct ray *ray)
 {
@@ -38,8 +38,8 @@ double ring_radius(struct random *random, double size)
   return choose(random, 8) ? size * random_decade(random, 0, 18) : 0;
 }
 
-/* A closed model, as it is, or turned, or with the point at (u,v) of its patch 0 moved to the middle, where rays next
- * to it have all their digits. */
+/* Places a closed model: as it is, or turned, or with the point at (u,v) of its patch 0 moved to the middle, where rays
+ * next to it have all their digits. */
 static void place_model(struct random *random, struct model *made, double u, double v, struct situation *s)
 {
   struct model model = *made;
@@ -83,7 +83,7 @@ static void rays_round(struct random *random, double u, double v, struct situati
   for (int n = 0; n < RAYS; n++) ray_round(random, at, ring_radius(random, size), size, &s->rays[n]);
 }
 
-/* Patch 0 becomes one whose row u = 0 is one point: of the teapot the lid's and the bottom's. */
+/* Makes patch 0 one whose row u = 0 is one point: of the teapot, one of the lid's or the bottom's. */
 static void pole_first(struct random *random, struct model *model)
 {
   for (;;) {
@@ -130,7 +130,7 @@ void ring_corners(struct random *random, size_t index, struct situation *s)
   rays_round(random, u, v, s);
 }
 
-/* Where leaves of a patch meet, and the lines that a leaf's box and its margin end at. */
+/* Where leaves of a patch meet, and where a leaf's box and its margin end. */
 void ring_leaves(struct random *random, size_t index, struct situation *s)
 {
   static const double steps[] = {8, 2, 4, 3, 16};
@@ -142,7 +142,7 @@ void ring_leaves(struct random *random, size_t index, struct situation *s)
   rays_round(random, u, v, s);
 }
 
-/* A point where the first derivative vanishes along u, at the border or within. */
+/* A point where the derivative along u vanishes, on the border or inside. */
 void ring_cusps(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1;
@@ -177,7 +177,7 @@ void ring_rulings(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* Nearly in the tangent plane at a point, and past it by a ring's radius. */
+/* A ray nearly in the tangent plane at a point, past it at a ring's radius. */
 static void rays_tangent(struct random *random, double u, double v, double tilt, struct situation *s, struct ray *ray)
 {
   double at[3], du[3], dv[3], d[3];
@@ -200,7 +200,7 @@ void ring_tangencies(struct random *random, size_t index, struct situation *s)
                  random_decade(random, 1, 18) * random_between(random, -1, 1), s, &s->rays[n]);
 }
 
-/* In the tangent plane at (u,v): what the surface bends there along du, along both and along dv, but for a factor. */
+/* How far the surface bends from the tangent plane at (u,v), up to a factor: along du, along both, along dv. */
 static void bends(const struct situation *s, double u, double v, double du[3], double dv[3], double out[3])
 {
   static const double h = 0x1p-16;
@@ -219,8 +219,8 @@ static void bends(const struct situation *s, double u, double v, double du[3], d
   for (int axis = 0; axis < 3; axis++) out[2] += (behind[1][axis] - before[1][axis]) * n[axis];
 }
 
-/* The same, along a direction in which the surface does not bend, where it has one; half of the rays where that is the
- * only one. They meet it as a cubic does 0, or a quartic. */
+/* The same along a direction in which the surface does not bend, if there is one. For half of the rays it is the only
+ * one; they meet the surface as a cubic meets 0, or a quartic. */
 void ring_unbent_tangents(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1;
@@ -243,7 +243,7 @@ void ring_unbent_tangents(struct random *random, size_t index, struct situation 
   }
 }
 
-/* Two patches with a row in common, and rays that touch one of them, or both, next to it. */
+/* Two patches that share a row, and rays that touch one of them, or both, next to it. */
 void ring_creases(struct random *random, size_t index, struct situation *s)
 {
   s->count = 2;
@@ -252,7 +252,7 @@ void ring_creases(struct random *random, size_t index, struct situation *s)
     memcpy(s->P[1][0][j], s->P[0][3][j], sizeof s->P[1][0][j]);
     for (int i = 1; i < 4; i++) {
       s->P[1][i][j][0] += 3;
-      for (int axis = 0; axis < 3 && index % 3 == 0; axis++) /* smooth across the row but for rounding */
+      for (int axis = 0; axis < 3 && index % 3 == 0; axis++) /* smooth across the row up to rounding */
         s->P[1][i][j][axis] = (1 + i) * s->P[0][3][j][axis] - i * s->P[0][2][j][axis];
     }
   }
@@ -263,7 +263,7 @@ void ring_creases(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* Next to the border of an open surface; collapsed but for some roundings, too. */
+/* Next to the border of an open surface; some borders are collapsed up to rounding. */
 void ring_open_borders(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1;
