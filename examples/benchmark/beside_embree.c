@@ -2,16 +2,20 @@
  *
  *   beside_embree KIND SCENE [RUNS [SIDE [SOLVER...]]]
  *
- * KIND camera: all 800x600 camera rays in the renderer's order. shadow: the shadow rays that their hits send, asked
- * whether anything is hit. scattered: as many rays between random points of the box that holds the hits, in random
- * directions: nothing is said of their order. pscn answers by the scene's own solvers, in packets and, "one by one",
- * each ray for itself; then by each SOLVER ("aberth { split 1 }"; "all" or "all SOLVER": all hits of each ray instead
- * of the nearest); beside Embree's rtcIntersect1 and its packets of 8 and, where the processor has the instructions,
- * 16, which are told whether the rays are coherent; or rtcOccluded. SIDE x SIDE x 2 triangles a patch (64). CPU time of
- * the thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest, largest), and the medians
- * of the ratios in the same run to Embree's rays one by one, to its fastest packets, to pscn's packets. Then what had to be
- * done before the first ray, in CPU seconds of one thread: pscn's preparing of the patches; Embree's triangles and their
- * hierarchy, of its default quality and of the best one, which its rays are traced with.
+ * KIND is one of
+ *   camera      all 800x600 camera rays, in the renderer's order
+ *   shadow      the shadow rays that their hits send: whether anything is hit
+ *   scattered   as many rays from random points of the box of the hits, in random directions, in no order
+ *
+ * pscn answers by the scene's own solvers, in packets and, "one by one", each ray alone; then by each SOLVER ("aberth {
+ * split 1 }"; "all" or "all SOLVER": all hits of each ray instead of the nearest). Embree has SIDE x SIDE x 2 triangles
+ * a patch (64), and answers by rtcIntersect1 and by packets of 8 and, where the processor has the instructions, 16,
+ * which are told whether the rays are coherent; or by rtcOccluded.
+ *
+ * Prints a line for each contestant, tabs between: its name; ns a ray, in CPU time of the thread (median over runs,
+ * smallest, largest); the medians of the ratios in the same run to Embree's rays one by one, to its fastest packets and
+ * to pscn's packets. Then the work before the first ray, in CPU seconds of one thread: pscn's preparing of the patches;
+ * Embree's triangles and their hierarchy, of its default quality and of the best, with which its rays are traced.
  */
 #include <math.h>
 #include <stdio.h>
@@ -81,14 +85,14 @@ static void find_hits(struct tracer *tracer, const struct ray_list *list, struct
   }
 }
 
-/* Within [0,1), from a generator with the constants of Knuth's MMIX. */
+/* In [0,1), by a generator with the constants of Knuth's MMIX. */
 static double random_number(uint64_t *state)
 {
   *state = *state * 6364136223846793005u + 1442695040888963407u;
   return (double)(*state >> 11) * 0x1p-53;
 }
 
-/* Replaces the rays, packets staying full ones. */
+/* Replaces the rays; full packets stay full. */
 static void scatter(const struct hit *hits, struct ray_list *list)
 {
   double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -159,7 +163,7 @@ static double median_ratio(const struct contestant *a, const struct contestant *
   return median(ratio, runs);
 }
 
-/* Embree's packets that were the faster ones. */
+/* Which of Embree's packets were faster. */
 static size_t fastest_packets(const struct contestant *list, size_t count, size_t runs)
 {
   size_t best = 1;
@@ -190,7 +194,7 @@ static const double (*nets_of(const struct scene *scene, struct arena *arena))[4
   return (const double(*)[4][4][3])P;
 }
 
-/* Embree's triangles; *seconds is what making them took. */
+/* Embree's triangles; *seconds: the time of making them. */
 static struct embree_mesh *make_mesh(const double (*P)[4][4][3], size_t patch_count, unsigned side, bool best,
                                      double *seconds)
 {

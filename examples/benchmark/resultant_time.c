@@ -1,7 +1,6 @@
 /* How long forming r(u) takes, one candidate a lane: the resultant of degree 18 of two bicubic nets, in scaled
  * Bernstein form, by Bezout's 3x3 determinant. Compiled once per instruction set; resultant_main.c calls those that the
- * processor has.
- */
+ * processor has. */
 #include "resultant_time.h"
 
 #include "base/clock.h"
@@ -14,7 +13,7 @@
 
 enum { NETS = 64, DEGREE = 18 };
 
-/* Out of line, as a kernel calls it: nets in, coefficients out. */
+/* Out of line, as a kernel calls it: takes nets, returns coefficients. */
 static __attribute__((noinline)) void form(const lanes a[16], const lanes b[16], lanes c[DEGREE + 1])
 {
   bezout_lanes_resultant(3, 3, a, b, c);

@@ -1,5 +1,5 @@
-/* resultant_time.c under the name of each instruction set: ns a candidate over `repeats` x 64 resultants, the lanes of
- * a register, and a sum of coefficients, so that no work can be left out. */
+/* resultant_time.c under the name of each instruction set. Returns ns a candidate over `repeats` x 64 resultants, the
+ * lanes of a register, and a sum of coefficients, so that no work can be optimized away. */
 #ifndef RESULTANT_TIME_H
 #define RESULTANT_TIME_H
 

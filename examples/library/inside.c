@@ -1,13 +1,13 @@
-/* How much of space a closed model fills: a grid of N x N lines goes through it, and a point of a line is inside where
- * the line has met the surface an odd number of times before it. What the lengths inside add up to, times the area that
- * each line stands for, is the volume; no line may meet the surface an odd number of times altogether.
+/* How much of space a closed model fills: a grid of N x N lines goes through it. A point of a line is inside if the
+ * line has met the surface an odd number of times before it. The sum of the lengths inside, times the area that each
+ * line stands for, is the volume. No line may meet the surface an odd number of times altogether.
  *
  *     cc inside.c $(pkg-config --cflags --libs pscn) -lm -o inside
  *     ./inside 100                  a ball of eight patches, made here of control points
  *     ./inside 100 model.pscn       a model of yours, closed, all patches of the file
  *
- * Writes the lines, how many of them meet the model, those whose number of hits is not proven, and the volume. The exit
- * code is 1 where a line whose number of hits is proven got in and not out.
+ * Writes the number of lines, of those that meet the model, and of those whose number of hits is not proven, and the
+ * volume. The exit code is 1 if a line with a proven number of hits got in and not out.
  */
 #include <math.h>
 #include <pscn.h>
@@ -33,7 +33,7 @@ static enum pscn_status make_ball(struct pscn_scene **out)
   return pscn_scene_from_points(&points[0][0][0][0], 8, sizeof points[0], sizeof points[0][0][0], NULL, out);
 }
 
-/* A box around all control points, and so around all patches. */
+/* A box around all control points, and therefore around all patches. */
 static void find_box(const struct pscn_scene *scene, double low[3], double high[3])
 {
   for (int k = 0; k < 3; k++) low[k] = INFINITY, high[k] = -INFINITY;
@@ -64,14 +64,14 @@ struct sums {
   double length;
 };
 
-enum { MOST = 64 }; /* hits of a line that are looked at; more are counted all the same */
+enum { MOST = 64 }; /* hits of a line that are used; more are only counted */
 
 static void add_line(const struct pscn_hits *count, const struct pscn_hit hits[MOST], struct sums *sums)
 {
   sums->met += count->count > 0;
   sums->unproven += !count->certain;
   sums->leaks += count->certain && count->count % 2 == 1;
-  /* Every second stretch between two hits is inside; the direction has the length 1. */
+  /* Every second stretch between two hits is inside. The direction has length 1. */
   for (size_t k = 1; k < count->count && k < MOST; k += 2) sums->length += hits[k].t - hits[k - 1].t;
 }
 

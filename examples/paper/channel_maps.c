@@ -16,9 +16,9 @@
 
 enum map { MAP_ITERATIONS, MAP_RESIDUAL, MAP_DEVIATION, MAPS };
 
-#define RIGHT 1e-12 /* a deviation of less is called none */
+#define RIGHT 1e-12 /* a smaller deviation counts as none */
 
-/* How far the solver's answer is from the certified one, relative; infinite where one of them is none. */
+/* The relative distance of the solver's answer from the certified one; infinite if only one of them is a hit. */
 static double deviation(const struct picture_pixel *found, const struct picture_pixel *exact)
 {
   if (isinf(found->depth) || isinf(exact->depth)) return found->depth == exact->depth ? 0 : INFINITY;

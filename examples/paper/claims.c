@@ -32,7 +32,7 @@ static struct solver_options paper_options(enum paper_method method, double tole
 
 /* ---- 2.1 ---- */
 
-/* Random plane polynomials of one bidegree, their determinants, and the median time of making one. */
+/* Random plane polynomials of one bidegree, and the median time of making a determinant. */
 static double make_resultants(int n, double c[])
 {
   const size_t terms = 2 * (size_t)n * (size_t)n + 1;
@@ -78,7 +78,7 @@ static void lower(void)
 
 enum { BASIN_DEGREE = 7, BASIN_PIXELS = 240, BASIN_STEPS = 100, STARTS = 400 };
 
-/* The step of eq 7 or eq 8 alone, without any care. */
+/* A step of eq 7 or eq 8 alone, without any safeguards. */
 static struct complex_number plain_step(enum paper_method method, const struct root_problem *problem,
                                         struct complex_number z)
 {
@@ -99,7 +99,7 @@ static struct complex_number plain_step(enum paper_method method, const struct r
   return complex_divide(complex_scale(-n, p), complex_norm(plus) >= complex_norm(minus) ? plus : minus);
 }
 
-/* The root that the start goes to; -1: none in BASIN_STEPS. */
+/* The root that the start leads to; -1: none within BASIN_STEPS. */
 static int goes_to(enum paper_method method, const struct root_problem *problem, const struct root_set *roots,
                    struct complex_number z)
 {
@@ -133,7 +133,8 @@ static void random_problem(uint64_t *seed, int degree, struct root_problem *out,
   solver_solve(&p, &options, NULL, out_roots);
 }
 
-/* Which root each start goes to, on [-2,2] x [-2,2]; PAPER_METHODS as the method: which is nearest. Roots are black. */
+/* Draws which root each start leads to, on [-2,2] x [-2,2]; for the method PAPER_METHODS, which root is nearest. Roots
+ * are black. */
 static bool draw_basins(const char *path, int method)
 {
   uint64_t seed = 5;
@@ -160,7 +161,7 @@ static bool nearest(const char *folder)
 {
   for (int m = 0; m <= PAPER_METHODS; m++) {
     char path[4096];
-    if (m == PAPER_ABERTH) continue; /* it has no start of one root */
+    if (m == PAPER_ABERTH) continue; /* its start is not that of one root */
     const char *name = m == PAPER_METHODS ? "nearest" : paper_method_names[m];
     if (snprintf(path, sizeof path, "%s/basins-%s.png", folder, name) >= (int)sizeof path || !draw_basins(path, m))
       return false;
@@ -191,7 +192,8 @@ static bool nearest(const char *folder)
 
 enum { MOST_SWEEPS = 2000 };
 
-/* Eq 9 alone, all values moved in every sweep from the values of the last, without any care. Whether all have come to rest. */
+/* Eq 9 alone, without safeguards: each sweep moves all values, from those of the last sweep. Returns whether all have
+ * settled. */
 static bool all_rest(const struct root_problem *problem, struct complex_number z[])
 {
   const int n = problem->degree;
@@ -260,8 +262,7 @@ struct line {
   double n, x, y, xx, xy;
 };
 
-/* Errors between these, relative to the root or 1, are near enough for the order to show and far enough from
- * rounding. */
+/* Errors between these, relative to the root or 1, are small enough to show the order, and far enough from rounding. */
 #define NEAR 3e-2
 #define ROUNDED 1e-13
 
@@ -279,7 +280,7 @@ static double error_at(const struct ways *ways, int root, int step)
   return hypot(z.re - last.re, z.im - last.im) / fmax(1, complex_modulus(last));
 }
 
-/* Newton and Laguerre: every root by itself. Aberth: the largest error of all roots, which are one iteration. */
+/* Newton and Laguerre: each root by itself. Aberth: the largest error of all roots, which make one iteration. */
 static void take_steps(const struct ways *ways, bool print, enum paper_method method, struct line *line)
 {
   if (method == PAPER_ABERTH) {

@@ -25,8 +25,8 @@ enum {
   MAX_ITERATIONS = 500,
   ROUNDS = 21,      /* at most */
   LAST_DIGIT = 13,  /* of eps = 1e-1 ... */
-  COLD_DIGIT = 6,   /* where the patch is measured from Aberth's start values too */
-  MANY_SWEEPS = 11, /* beyond, Aberth's method hardly meets eq 10, and takes as many sweeps as it may */
+  COLD_DIGIT = 6,   /* where the patch is also measured from Aberth's start values */
+  MANY_SWEEPS = 11, /* with more digits Aberth's method hardly meets eq 10, and uses all sweeps it may */
 };
 
 /* Seconds a polynomial. */
@@ -35,7 +35,7 @@ struct measured {
   double seconds;
 };
 
-/* How often: rounds, and runs in each, so that a turn is long enough for the clock. */
+/* The number of rounds, and of runs in each, so that a turn is long enough for the clock. */
 struct effort {
   int rounds, repeat;
 };
@@ -68,12 +68,12 @@ static double *random_polynomials(int degree, uint64_t seed)
   return c;
 }
 
-/* What is timed at one degree: the first root (Aberth's method: all), the same with an eps that ends nothing after a few
- * iterations and after many, all roots. */
+/* What is timed at one degree: the first root (Aberth's method: all); the same with an eps that never ends it, after a
+ * few iterations and after many; all roots. */
 enum task { ONE, FEW, MANY, ALL, TASKS };
 enum { FEW_ITERATIONS = 4, MANY_ITERATIONS = 20 };
 
-/* Seconds an iteration of one root takes, without the start and what is done with the root. */
+/* Seconds of an iteration of one root, without its start and what follows the root. */
 static double iterating(const struct measured *few, const struct measured *many, double roots)
 {
   const double more = many->totals.iterations / many->totals.sought - few->totals.iterations / few->totals.sought;
@@ -116,7 +116,7 @@ static bool degrees(void)
   return true;
 }
 
-/* Rows of one batch of polynomials against eps. */
+/* Rows against eps for one batch of polynomials. */
 static void against_eps(struct batch batch, const char *start, int first, int last, struct effort effort)
 {
   for (int digits = first; digits <= last; digits++) {
@@ -146,7 +146,7 @@ static bool tolerances(void)
   return true;
 }
 
-/* Without those that have a root at 0 or at infinity, which are not of degree 18. */
+/* Drops those that have a root at 0 or at infinity, which are not of degree 18. */
 static size_t keep_whole(size_t count, double *c)
 {
   size_t kept = 0;

@@ -1,11 +1,10 @@
 /* Newton's, Laguerre's and Aberth's methods, scalar as printed and on lanes. See forms.h.
  *
- * On lanes every lane is at a place of its own: it has its polynomial, or what deflation left of it, and takes the next
- * one when it is done, without waiting for the others. A step is taken on all lanes at once; what comes once a root
- * (whether it is real, the division, the next start) is done lane by lane, by the code of the scalar form. Aberth's sums
- * use every difference of two values for both, which rounds in another order than the scalar form; the others' values
- * are the same bits.
- */
+ * Each lane works on its own polynomial, or what deflation has left of it, and takes the next one when it is done,
+ * without waiting for the others. A step is taken on all lanes at once. Work that comes once a root (whether it is
+ * real, the division, the next start) is done lane by lane, by the scalar form's code. Aberth's sums use each
+ * difference of two values for both, which rounds in another order than the scalar form. The other methods' values have
+ * the same bits. */
 #include "forms.h"
 
 #include <math.h>
@@ -23,14 +22,14 @@ const char *const form_names[FORMS] = {"scalar", "lanes"};
 #define STUCK 0.9
 enum { TURN_PERIOD = 7, TURN_PERIOD_AT_ONCE = 5 };
 
-/* Registers of polynomials that a deflating method has under way: Horner's scheme waits for every result before the
- * next, and two that take turns wait half as long (three are too many for 16 registers). Aberth's roots do not wait for
- * each other. */
+/* Registers of polynomials that a deflating method works on in turn. Horner's scheme waits for each result, and two
+ * that alternate wait half as long (three are too many for 16 registers). Aberth's roots need not wait for each
+ * other. */
 enum { GROUPS = 2, PLACES = GROUPS * LANES };
 
 int form_lanes(enum paper_method method) { return method == PAPER_ABERTH ? LANES : PLACES; }
 
-/* Operations of an iteration of one root at degree n. */
+/* The operations of an iteration of one root at degree n. */
 static double operations_ours(enum paper_method method, int n)
 {
   return method == PAPER_NEWTON ? 15 * n + 62 : method == PAPER_LAGUERRE ? 23 * n + 125 : 25 * n + 57;
@@ -41,7 +40,7 @@ static double operations_paper(enum paper_method method, int n)
   return method == PAPER_NEWTON ? 14 * n + 8 : method == PAPER_LAGUERRE ? 21 * n + 29 : 24 * n + 17;
 }
 
-/* What is known of a polynomial that is done. */
+/* Counts a polynomial that is done. */
 static void count_polynomial(enum paper_method method, const struct batch *batch, size_t number,
                              const struct root_estimates *roots, struct batch_totals *out, double where[][2])
 {
@@ -146,10 +145,10 @@ static void run_scalar(enum paper_method method, const struct batch *batch, stru
 
 /* ---- on lanes ---- */
 
-/* The polynomial a lane is at; the lanes' stretches are of equal length. */
+/* A lane's polynomial. The lanes' stretches are equally long. */
 struct place {
   size_t at, end;           /* at == end: nothing is left to do */
-  struct root_problem rest; /* what deflation has left */
+  struct root_problem rest; /* what deflation has left of it */
   struct root_estimates roots;
   struct solver_warm warm;
 };
@@ -162,7 +161,7 @@ static void places_begin(const struct batch *batch, size_t places, struct place 
   }
 }
 
-/* Of the deflating methods. Coefficients above a lane's degree are 0. */
+/* The lanes of a deflating method. Coefficients above a lane's degree are 0. */
 struct seekers {
   lanes c[FORMS_DEGREE + 1];
   lanes degree, zr, zi;
@@ -170,7 +169,7 @@ struct seekers {
   lane_mask busy;
 };
 
-/* The lane seeks its next root, in the polynomial that is left or in the next one. */
+/* Makes the lane seek its next root, in what is left of its polynomial or in the next one. */
 static void seek_next(struct seekers *s, const struct batch *batch, struct place *place, int lane, bool fresh)
 {
   double re[FORMS_DEGREE], im[FORMS_DEGREE];
@@ -206,7 +205,7 @@ static double square_at(const struct root_problem *p, struct complex_number z, d
   return complex_norm(q);
 }
 
-/* The root that the lane has found is taken out. */
+/* Takes out the root that the lane has found. */
 static void take_root(struct seekers *s, enum paper_method method, const struct batch *batch, struct place *place,
                       int lane, struct batch_totals *out, double where[][2])
 {
@@ -237,7 +236,7 @@ static void take_root(struct seekers *s, enum paper_method method, const struct 
   seek_next(s, batch, place, lane, whole);
 }
 
-/* Square root with real part >= 0. */
+/* The square root with real part >= 0. */
 LANES_INLINE void lanes_complex_sqrt(lanes re, lanes im, lanes *out_re, lanes *out_im)
 {
   const lanes modulus = lanes_sqrt(re * re + im * im), larger = lanes_sqrt(0.5 * (modulus + lanes_abs(re)));
@@ -292,7 +291,8 @@ LANES_INLINE void deflating_steps(const struct jets *j, lanes n, bool curved, la
   *out_re = (pr * br + pi * bi) * inverse, *out_im = (pi * br - pr * bi) * inverse;
 }
 
-/* deflation.c's care of long steps and of those that are stuck; moves all lanes. Returns those that have converged. */
+/* Moves all lanes, with deflation.c's safeguards against long steps and stuck lanes. Returns those that have
+ * converged. */
 LANES_INLINE lane_mask deflating_move(struct seekers *s, const struct batch *batch, lanes re, lanes im)
 {
   const lanes reach = s->longest * (lanes_sqrt(s->zr * s->zr + s->zi * s->zi) + s->mean);
@@ -318,7 +318,7 @@ LANES_INLINE lane_mask deflating_move(struct seekers *s, const struct batch *bat
   return converged | (s->iterations >= batch->max_iterations);
 }
 
-/* Until all lanes are done. `curved` is a constant at either call. */
+/* Runs until all lanes are done. `curved` is a constant in each call. */
 LANES_INLINE void run_deflating(enum paper_method method, bool curved, const struct batch *batch,
                                 struct batch_totals *out, double where[][2])
 {
@@ -348,7 +348,7 @@ LANES_INLINE void run_deflating(enum paper_method method, bool curved, const str
   }
 }
 
-/* Of Aberth's method. */
+/* The lanes of Aberth's method. */
 struct swarm {
   lanes c[FORMS_DEGREE + 1], zr[FORMS_DEGREE], zi[FORMS_DEGREE], checked[FORMS_DEGREE];
   int sweeps[LANES];
@@ -368,7 +368,7 @@ static void swarm_next(struct swarm *s, const struct batch *batch, struct place 
   s->sweeps[lane] = 0;
 }
 
-/* sum over j != i of 1/(z_i - z_j), every difference for both. */
+/* The sums over j != i of 1/(z_i - z_j); each difference serves both. */
 LANES_INLINE void swarm_sums(const struct swarm *s, int n, lanes re[FORMS_DEGREE], lanes im[FORMS_DEGREE])
 {
   for (int i = 0; i < n; i++) re[i] = im[i] = lanes_all(0);
@@ -383,7 +383,7 @@ LANES_INLINE void swarm_sums(const struct swarm *s, int n, lanes re[FORMS_DEGREE
   }
 }
 
-/* A sweep; the lanes where a root still moves. */
+/* Makes a sweep. Returns the lanes where a root still moves. */
 static lane_mask swarm_sweep(struct swarm *s, const struct batch *batch, lane_mask turning)
 {
   const int n = batch->degree;

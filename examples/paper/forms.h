@@ -19,20 +19,21 @@ enum form { FORM_SCALAR, FORM_LANES, FORMS };
 extern const char *const paper_method_names[PAPER_METHODS];
 extern const char *const form_names[FORMS];
 
-/* Polynomials in the power basis, one behind the other, n + 1 coefficients each, the first and the last not 0. */
+/* Polynomials in the power basis, one after the other, with n + 1 coefficients each. The first and the last are not
+ * 0. */
 struct batch {
   int degree;
   size_t count;
   const double *c;
   double tolerance;
   int max_iterations;
-  bool previous;   /* each starts from the roots of the one before; on lanes each lane has a stretch of its own */
+  bool previous;   /* each starts from the roots of the one before; on lanes each lane has its own stretch */
   bool first_only; /* newton, laguerre: only the first root */
 };
 
-/* The sums over a batch; where[] NULL or room for count * degree roots. */
+/* The sums over a batch. where[] is NULL or has room for count * degree roots. */
 struct batch_totals {
-  double iterations, sought; /* roots that took any */
+  double iterations, sought; /* those that took iterations */
   double operations;         /* additions, multiplications, inversions and roots, by docs/paper.md's Table 1, ours */
   double operations_paper;   /* the same by the paper's */
 };

@@ -13,7 +13,7 @@ double measure_random(uint64_t *state);
 /* Coefficients c[0..degree], uniform in [-1,1]. */
 void measure_random_polynomial(uint64_t *state, int degree, double c[]);
 
-/* The middle one of `count` numbers, which are sorted. */
+/* The middle one of `count` numbers, which it sorts. */
 double measure_median(size_t count, double x[]);
 
 /* polynomial_eq11 of a value that need not be finite; below 1 the root is accurate. */

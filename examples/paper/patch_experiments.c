@@ -3,9 +3,9 @@
  *     patch_experiments SCENE WIDTH HEIGHT [DIGITS]     with DIGITS only eps = 1e-DIGITS
  *
  * Every pixel's ray against the first patch of the scene, in the order of the picture's lines: Sylvester's determinant
- * in the power basis, degree 18, all roots. Against eps: iterations a
- * root, CPU time of the solver a pixel, and the shares of roots, and of pixels all of whose roots, that meet eq 11;
- * from Aberth's start values (cold), and from the roots of the ray before (previous).
+ * in the power basis, degree 18, all roots. Against eps: iterations a root; CPU time of the solver a pixel; the shares
+ * of roots that meet eq 11, and of pixels all of whose roots do; from Aberth's start values (cold), and from the roots
+ * of the ray before (previous).
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +30,7 @@ static void solve_pixel(const double c[], const struct solver_options *options, 
   struct root_problem problem = {.degree = DEGREE, .basis = BASIS_POWER};
   struct root_estimates roots;
   memcpy(problem.c, c, sizeof problem.c[0] * (DEGREE + 1));
-  if (c[0] == 0.0 || c[DEGREE] == 0.0) return; /* a root at 0 or at infinity: not of degree 18 */
+  if (c[0] == 0.0 || c[DEGREE] == 0.0) return; /* it has a root at 0 or at infinity, and is not of degree 18 */
   const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   options->solver->find(&problem, options, warm, &roots);
   totals->seconds += clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;

@@ -36,7 +36,7 @@ static void plane_polynomial(const struct scene_patch *patch, const double norma
   for (int j = 0; basis == BASIS_POWER && j < 4; j++) cubic_to_power(out + j, 4);
 }
 
-/* r(u) of the ray through the point (s,t) of the picture; eq 2 with two planes that are perpendicular to each other. */
+/* r(u) of the ray through the point (s,t) of the picture: eq 2 with two perpendicular planes. */
 static void pixel_polynomial(const struct scene *scene, double s, double t, enum basis basis,
                              double out_c[PATCH_DEGREE + 1])
 {

@@ -8,8 +8,8 @@
 
 enum { PATCH_DEGREE = 18 };
 
-/* Every pixel's ray, in the order of the picture's lines: Sylvester's determinant in the basis, PATCH_DEGREE + 1
- * coefficients each. To be freed; NULL, told on stderr, where the scene cannot be had. */
+/* For every pixel's ray, in the order of the picture's lines, Sylvester's determinant in the basis: PATCH_DEGREE + 1
+ * coefficients. The caller frees them. NULL, with a message on stderr, if the scene cannot be loaded. */
 double *patch_polynomials(const char *scene, size_t width, size_t height, enum basis basis);
 
 #endif

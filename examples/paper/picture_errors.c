@@ -1,10 +1,12 @@
-/* A solver's picture, and where it is wrong, and how (Fig 16 and 17): a row of CSV on standard output, the picture and a map.
+/* A solver's picture, and where and how it is wrong (Fig 16 and 17): a row of CSV on standard output, the picture and a
+ * map.
  *
  *     picture_errors SCENE WIDTH HEIGHT SOLVER NAME
  *
- * Pixels are traced line by line (pictures.h). Writes NAME.png and NAME-map.png. The depth of every pixel by the solver,
- * against the default's, which is certified. Depths are the same within a fiftieth of the depths there are in the picture. Map: blue holes (darker: through to the background), red phantoms
- * (darker: in front of nothing), light grey what is right.
+ * Pixels are traced line by line (pictures.h). Compares the depth of every pixel with the default's, which is
+ * certified; depths are the same within a fiftieth of the picture's range of depths. Writes NAME.png and NAME-map.png.
+ * The map shows holes in blue (darker: through to the background), phantoms in red (darker: in front of nothing), and
+ * right pixels in light grey.
  */
 #include <math.h>
 #include <stdio.h>

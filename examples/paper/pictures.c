@@ -1,4 +1,4 @@
-/* Pictures made line by line, and maps written. See pictures.h. */
+/* Pictures made line by line, and maps. See pictures.h. */
 #include "pictures.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@ static void tell(void *context, const char *text, size_t length)
   fwrite(text, 1, length, stderr);
 }
 
-/* By two tracers, each of which has its own roots to begin at: of camera rays and of shadow rays. */
+/* Uses two tracers, for camera rays and shadow rays, each with its own roots to start from. */
 static void trace_lines(const struct scene *scene, struct tracer *tracer[2], size_t width, size_t height,
                         struct picture_pixel out[])
 {

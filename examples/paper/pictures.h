@@ -10,24 +10,24 @@
 
 struct picture_pixel {
   double rgb[3];                   /* linear, shaded with shadows */
-  double depth;                    /* of its hit along the ray; infinite where there is none */
-  struct explained_numbers solver; /* what it took */
+  double depth;                    /* of its hit along the ray; infinite for a miss */
+  struct explained_numbers solver; /* its work */
 };
 
-/* Every pixel of the picture by the solver, the scene's own where it is NULL: one ray each, one after the other along the lines
- * from the top, so that with `start previous` each begins at the roots of the pixel to its left, or of the line before. (The
- * tiles of render_scene begin cold.) Shadow rays do not come between them. [height][width]; to be freed. NULL, told on
- * stderr, where anything fails. */
+/* Every pixel of the picture by the solver, or by the scene's own one if it is NULL: one ray each, one after the other
+ * along the lines from the top. So with `start previous` each begins at the roots of the pixel to its left, or of the
+ * line before. (The tiles of render_scene start cold.) Shadow rays do not interfere. Returns [height][width] pixels,
+ * which the caller frees; NULL, with a message on stderr, if anything fails. */
 struct picture_pixel *picture_lines(const char *scene, size_t width, size_t height, const char *solver);
 
-/* An image of three channels to be written; false where memory is short. */
+/* Makes an image of three channels; false if memory is short. */
 bool picture_begin(size_t width, size_t height, struct image *out);
 
-/* Writes it as PNG, NAME and then SUFFIX, and destroys it; false, told on stderr, where that fails. `encoded`: its values are
- * display codes, not linear. */
+/* Writes it as PNG, named NAME and SUFFIX, and destroys it; false, with a message on stderr, if that fails. `encoded`:
+ * its values are display codes, not linear. */
 bool picture_end(struct image *image, bool encoded, const char *name, const char *suffix);
 
-/* The colour of x in [0,1], dark blue over green to yellow; what is beyond has the colour of the end. */
+/* The colour of x in [0,1], from dark blue over green to yellow. Values beyond have the colour of that end. */
 void picture_scale(double x, float out_rgb[3]);
 
 #endif

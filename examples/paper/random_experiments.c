@@ -28,7 +28,7 @@ enum {
   POLYNOMIALS = 100,
   PAPER_DEGREE = 18,
   LAST_DEGREE = 24,
-  REPEATS = 20 /* of every timed solve: one alone is too short for the clock */
+  REPEATS = 20 /* of every timed solve: a single one is too short for the clock */
 };
 
 static int repeats = REPEATS; /* of a solve, for its time */
@@ -36,7 +36,7 @@ static int repeats = REPEATS; /* of a solve, for its time */
 static const char *const methods[] = {"newton", "laguerre", "aberth", "durand_kerner"};
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
-/* Whether the method moves all roots together, so that there is no first one. */
+/* Whether the method moves all roots together, so that none is the first. */
 static bool at_once(const struct solver_options *options)
 {
   return strcmp(options->solver->name, "aberth") == 0 || strcmp(options->solver->name, "durand_kerner") == 0;
@@ -58,7 +58,7 @@ static void random_problem(uint64_t *state, int degree, struct root_problem *out
   measure_random_polynomial(state, degree, out->c);
 }
 
-/* All roots, or the first one alone; a method that moves all at once always finds all. */
+/* Finds all roots, or only the first one; a method that moves all at once always finds all. */
 static void find(const struct root_problem *problem, const struct solver_options *options, bool first_only,
                  struct root_estimates *out)
 {
@@ -71,8 +71,8 @@ static void find(const struct root_problem *problem, const struct solver_options
 }
 
 struct summary {
-  double iterations; /* mean of a sought root */
-  double seconds;    /* mean of a solve */
+  double iterations; /* mean over the roots sought */
+  double seconds;    /* mean over the solves */
   double accurate;   /* share of the values that meet eq 11 */
   double error;      /* mean of log10 (|P(z)| / delta(z)), eq 11's two sides */
   double unconverged;
@@ -163,7 +163,7 @@ static void order(void)
   }
 }
 
-/* What the cap of steps does: every method with few and many steps a root, eps = 1e-6 and 1e-12. */
+/* The effect of the cap of steps: every method with few and many steps a root, eps = 1e-6 and 1e-12. */
 static void caps(void)
 {
   static const int most[] = {5, 10, 20, 30, 50, 100, 200, 500, 2000};
@@ -179,7 +179,7 @@ static void caps(void)
       }
 }
 
-/* One variant: items set over the paper's form, in the order given. */
+/* A variant: items set on top of the paper's form, in this order. */
 struct variant {
   const char *method, *name;
   const char *item[4];

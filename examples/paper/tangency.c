@@ -3,12 +3,11 @@
  *
  *     tangency SCENE
  *
- * Rays through the middle part of the scene's first patch, each moved along the normal from where it touches: by 1
- * down to 1e-15 scene units, to the side on which it meets the patch twice nearby. Every solver with and
- * without polish. CPU time a ray, the median of rounds in which all take turns;
- * the error of T, relative, against the reference (quadruple precision, proven), of the answers that are that hit; the
- * shares of its hits that are lost (missed, or passed for another), and of the answers called grazing. Rays that the
- * reference leaves open are left out.
+ * Rays through the middle part of the scene's first patch, each moved along the normal from where it touches, by 1 down
+ * to 1e-15 scene units, to the side where it meets the patch twice nearby. For every solver with and without polish:
+ * CPU time a ray, the median of rounds in which all take turns; the relative error of T, against the reference
+ * (quadruple precision, proven), of the answers that are the reference's hit; the shares of its hits that are lost
+ * (missed, or taken for another), and of the answers called grazing. Rays that the reference leaves open are left out.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +29,7 @@ enum { RAYS = 400, ROUNDS = 3, LAST_DIGIT = 15, MOST_WAYS = 16 };
 /* How far before the tangency rays start. */
 #define START 10.0
 
-/* Where the surface bends less than this along the ray, 1/radius, it is hardly tangent in one point. */
+/* If the surface bends less than this along the ray, 1/radius, it is hardly tangent in one point. */
 #define LEAST_BEND 0.1
 
 /* A solver, with or without polish. */

@@ -13,13 +13,13 @@ static struct quad_net net_of(const double P[4][4][3], int axis)
   return net;
 }
 
-/* out = x, y, z components of M^-1's absolute values times terms, in double from a quadruple-precision inverse. */
+/* out = components of |M^-1| times terms, in double, from a quadruple-precision inverse. */
 static void floor_bound(quad M[3][3], const double terms[3], double t, double u, double v, struct facts_floor *out)
 {
   quad determinant = 0;
   for (int k = 0; k < 3; k++)
     determinant += M[0][k] * (M[1][(k + 1) % 3] * M[2][(k + 2) % 3] - M[1][(k + 2) % 3] * M[2][(k + 1) % 3]);
-  quad moved[3] = {0}; /* at the ends of the doubles not even the inverse is one */
+  quad moved[3] = {0}; /* at the ends of the doubles' range not even the inverse exists */
   for (int row = 0; row < 3; row++) {
     for (int column = 0; column < 3; column++) {
       const int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;

@@ -19,7 +19,7 @@ struct facts_floor {
 
 /* Of a hit, or of what lies next to one. */
 struct facts {
-  bool has_normal;  /* false where S_u x S_v vanishes (a collapsed pole) */
+  bool has_normal;  /* false if S_u x S_v vanishes (a collapsed pole) */
   double normal[3]; /* unit, facing the origin */
   double incidence; /* |normal . direction| / |direction|: 0 is tangent */
   struct facts_floor data, local, whole;
@@ -35,8 +35,8 @@ double facts_residual(const double P[4][4][3], const double origin[3], const dou
 /* Of a vector, from one end of the doubles to the other: no square is formed. */
 double facts_length(const double a[3]);
 
-/* How far `point` is from the patch, at the foot that Gauss' and Newton's method finds next to (u,v), clamped to the
- * square: no less than the distance. */
+/* The distance of `point` from the patch at a foot next to (u,v), found by Gauss' and Newton's method and clamped to
+ * the square: no less than the true distance. */
 double facts_distance(const double P[4][4][3], const double point[3], double u, double v);
 
 #endif

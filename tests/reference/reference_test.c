@@ -1,4 +1,4 @@
-/* The reference judged by what is known in closed form, by brute force and by perturbation. */
+/* The reference against closed forms, brute force and perturbation. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -52,7 +52,7 @@ static void trough_net(double P[4][4][3])
   }
 }
 
-/* Squares of what doubles hold are no doubles. */
+/* Squares of the largest and smallest doubles are no doubles. */
 static void test_lengths_of_all_sizes(void **state)
 {
   (void)state;
@@ -87,10 +87,10 @@ static void test_flat(void **state)
   assert_int_equal(ask(P, 1, beside, down).verdict, REFERENCE_MISS);
   const double behind[2][3] = {{1, 1, 0.25}, {1, 1, 0.5}};
   assert_int_equal(ask(P, 1, behind[0], down).verdict, REFERENCE_MISS);
-  assert_int_equal(ask(P, 1, behind[1], down).verdict, REFERENCE_GRAZING); /* starts on the patch */
+  assert_int_equal(ask(P, 1, behind[1], down).verdict, REFERENCE_GRAZING); /* it starts on the patch */
 }
 
-/* Rays across the trough at height h: two hits at s = -+sqrt(h/3), one double, none. */
+/* Rays across the trough at height h: two hits at s = -+sqrt(h/3), a double one, or none. */
 static void test_tangent(void **state)
 {
   (void)state;
@@ -139,8 +139,8 @@ static void test_border(void **state)
   assert_int_equal(ask(P, 2, outside, down).verdict, REFERENCE_MISS);
 }
 
-/* A ray in the plane of a patch, one along a ruling, and patches collapsed to a line and to a point: bounded work, no
- * claim. */
+/* A ray in the plane of a patch, one along a ruling, and patches collapsed to a line and to a point: work is bounded,
+ * and nothing is claimed. */
 static void test_degenerate(void **state)
 {
   (void)state;
@@ -179,7 +179,7 @@ static void random_ray(struct random *random, double origin[3], double direction
   }
 }
 
-/* Plain Newton's method on S(u,v) - o - t d = 0 in double from one start: t of a zero well inside the patch, or
+/* Plain Newton's method on S(u,v) - o - t d = 0 in double from one start. Returns t of a zero well inside the patch, or
  * INFINITY. */
 static double newton_hit(const double P[4][4][3], const double o[3], const double d[3], double u, double v)
 {
@@ -225,7 +225,8 @@ static double newton_hit(const double P[4][4][3], const double o[3], const doubl
   return INFINITY;
 }
 
-/* No start of a grid of Newton's methods finds a hit the reference has not, and its own hits are common points. */
+/* From no start of a grid does Newton's method find a hit that the reference lacks, and the reference's hits are common
+ * points. */
 static void test_brute_force(void **state)
 {
   (void)state;
@@ -248,7 +249,7 @@ static void test_brute_force(void **state)
     if (a.verdict == REFERENCE_HIT) {
       hits++;
       assert_true(a.t > 0 && a.u >= -a.radius && a.u <= 1 + (quad)a.radius);
-      /* t, u, v rounded to double move the point by a unit of the largest coordinate times the derivatives. */
+      /* Rounding t, u, v to double moves the point by a unit of the largest coordinate times the derivatives. */
       assert_true(
         facts_residual(reference_net(reference, 0), origin, direction, (double)a.t, (double)a.u, (double)a.v) < 1e-13);
       const double incidence = facts_of(P, origin, direction, &a).incidence;
@@ -264,7 +265,7 @@ static void test_brute_force(void **state)
   assert_true(hits > rays / 10 && misses > rays / 20 && grazing <= rays / 1000);
 }
 
-/* Every input coordinate moved by one rounding moves the hit by no more than the floor says, to first order. */
+/* Moving every input coordinate by one rounding moves the hit by no more than the floor, to first order. */
 static void test_floor(void **state)
 {
   (void)state;
@@ -292,7 +293,7 @@ static void test_floor(void **state)
     share = fmax(share, fmax(t, u));
   }
   printf("floor: %zu hits, worst move %.3f of the bound\n", hits, share);
-  assert_true(hits > rays / 10 && share > 0.05); /* the bound is not idle */
+  assert_true(hits > rays / 10 && share > 0.05); /* the bound is not vacuous */
 }
 
 int main(void)

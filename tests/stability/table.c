@@ -1,9 +1,8 @@
-/* The situations where methods fail, with every solver in our form and in the paper's, with and without polish: what is
- * lost and invented against the reference, as Markdown on stdout.
+/* The situations where methods fail, with every solver in our form and in the paper's, with and without polish. Prints
+ * what is lost and invented, by the reference, as Markdown.
  *
- * Forms without polish promise nothing; what they lose is the finding. With `polish on` nothing may be lost or invented
- * whatever the solver: then the program fails.
- */
+ * Forms without polish promise nothing; what they lose is the finding. With `polish on` no solver may lose or invent
+ * anything: otherwise the program fails. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,13 +17,13 @@
 
 enum { FULL_RAYS = 10000, LEAST_RAYS = 32, MOST_CLASSES = 32 };
 
-/* A column of the summary. The texts are what may follow `solver`. */
+/* A column of the summary. The texts may follow `solver`. */
 struct form {
   const char *name, *text;
   bool polish;
 };
 
-/* The paper's own method as a scene says it; with polish its plain iteration must be asked for. */
+/* The paper's own method as a scene says it. With polish its plain iteration must be asked for. */
 #define PAPER "{ form paper }"
 #define PAPER_POLISHED "{ form paper polish on }"
 
@@ -86,7 +85,7 @@ static void run_class(const struct situation_class *class, struct tally row[FORM
   }
 }
 
-/* Classes down, forms across; a cell is "lost + invented", empty where both are 0. */
+/* Classes down, forms across. A cell is "lost + invented", or empty if both are 0. */
 static void print_summary(bool polish)
 {
   printf("| class | rays |");
@@ -109,7 +108,7 @@ static void print_summary(bool polish)
   printf("\n");
 }
 
-/* Two digits, or a dash for "none measured". */
+/* Two digits, or a dash if nothing was measured. */
 static void print_error(double error, bool measured)
 {
   if (measured) printf(" %.1e |", error);
@@ -137,7 +136,7 @@ static void print_class(const struct situation_class *class, const struct tally 
   printf("\n</details>\n\n");
 }
 
-/* Whether all is as the paper has it but for polish: what the solver statement of the paper's method must mean. */
+/* Whether all choices but polish are the paper's, as the solver statement of its method must mean. */
 static bool is_papers(const struct method *o)
 {
   return o->basis == BASIS_POWER && o->resultant == RESULTANT_SYLVESTER &&

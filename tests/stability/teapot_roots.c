@@ -1,7 +1,6 @@
 /* Aberth's method on ray-patch pairs of the teapot (whole patches), against all roots of the reference: how many of the
- * true (u,v) in [0,1]^2 it finds to 1e-11 with `polish off`, in Bernstein form, and that with `polish on` the nearest
- * hit is always right. The paper's own form is measured beside it and printed.
- */
+ * true (u,v) in [0,1]^2 it finds to 1e-11 with `polish off`, in Bernstein form; and that with `polish on` the nearest
+ * hit is always right. The paper's own form is measured too, and printed. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +17,7 @@ enum { PAIRS = 100000, LEAST_PAIRS = 20000 };
 /* Both parameters of a found root must be this near to the true one, absolute. */
 #define FOUND_WITHIN 1e-11
 
-/* The share of the true roots to be found without polish. */
+/* The share of the true roots that must be found without polish. */
 #define SHARE_UNPOLISHED 0.9998
 
 /* Relative error of T with polish. */
@@ -65,7 +64,7 @@ static void target_destroy(struct target *target)
   intersector_destroy(target->intersector);
 }
 
-/* What the patch's own method finds on the whole patch. */
+/* The roots that the patch's own method finds on the whole patch. */
 static void find_roots(struct target *target, const struct ray *ray, struct method_roots *out)
 {
   const struct model *model = target->tracer->model;
@@ -87,7 +86,7 @@ static bool among(const struct method_roots *found, const struct search_root *ro
   return false;
 }
 
-/* From a point around the teapot through the box of the patch's control points. */
+/* A ray from a point around the teapot through the box of the patch's control points. */
 static void random_ray(struct random *random, const double P[4][4][3], struct ray *out)
 {
   *out = (struct ray){.t_min = 0.0, .t_max = INFINITY};
