@@ -80,14 +80,13 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
   return least;
 }
 
-/* Whether the answer in a packet is as good as the one alone: of the same verdict and, if T differs, not refuted
- * either. */
+/* Whether the answer to a ray alone is as good as that in a packet, which `tally` judges: of the same verdict, and not
+ * refuted either. */
 static bool fits(const struct hit *alone, const struct hit *packed, struct certifier *certifier, const struct ray *ray)
 {
-  if (alone->patch != packed->patch || alone->certainty != packed->certainty) return false;
-  if (alone->patch == HIT_NONE || alone->t == packed->t) return true;
   struct certificate certificate;
-  certify(certifier, ray, packed, &certificate);
+  if (alone->patch != packed->patch || alone->certainty != packed->certainty) return false;
+  certify(certifier, ray, alone, &certificate);
   return certificate.finding <= FINDING_UNDECIDED;
 }
 
