@@ -70,7 +70,7 @@ static void within_the_bound(double (*off)(struct random *random))
   double most = 0;
   for (int n = 0; n < RAYS; n++) most = fmax(most, off(&random));
   print_message("off by no more than %.3g of the bound\n", most);
-  assert_true(most <= 1);
+  assert_true(most <= 1 && most > 0.01); /* not vacuous: 0.178 and 0.0494 */
 }
 
 static void planes_in_doubles(void **state)

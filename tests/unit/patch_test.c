@@ -60,6 +60,7 @@ static void evaluation_is_right_to_its_roundings(void **state)
   }
   print_message("evaluation off by %.3g, %.3g, %.3g roundings\n", worst[0], worst[1], worst[2]);
   assert_true(worst[0] <= VALUE_ROUNDINGS && worst[1] <= SLOPE_ROUNDINGS && worst[2] <= SLOPE_ROUNDINGS);
+  assert_true(worst[0] > 0.5 && worst[1] > 0.5 && worst[2] > 0.5);
 }
 
 static void corners_are_exact(void **state)
@@ -104,7 +105,7 @@ static void subnets_are_right_to_their_roundings(void **state)
     assert_memory_equal(net, cut, sizeof net);
   }
   print_message("subnets off by %.3g roundings\n", worst);
-  assert_true(worst <= SUBNET_ROUNDINGS);
+  assert_true(worst <= SUBNET_ROUNDINGS && worst > 0.5);
 }
 
 static void the_whole_is_copied_and_cuts_agree(void **state)
@@ -246,7 +247,7 @@ static void reduced_nets_are_the_nets_that_were_raised(void **state)
   print_message("reduced nets off by %.3g roundings\n", worst);
   /* One rounding of each cubic coefficient, with weights 1/4 (3 + 3 + 1 + 1) = 2 a direction, and four of the value's
    * own. */
-  assert_true(worst <= 16);
+  assert_true(worst <= 16 && worst > 0.5);
 }
 
 int main(void)

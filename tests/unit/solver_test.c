@@ -262,7 +262,7 @@ static void warm_start(void **state)
 }
 
 /* The largest radius, over all solvers, of the root next to `at`, of this polynomial and of its Bernstein form;
- * INFINITY if one has another status. */
+ * INFINITY if one has another status, or a solver that seeks it finds none. */
 static double largest_radius(int degree, const double c[], double at, enum root_status status)
 {
   const struct polynomial power = {degree, BASIS_POWER, c, NULL};
@@ -272,11 +272,14 @@ static double largest_radius(int degree, const double c[], double at, enum root_
     for (int form = 0; form < 2; form++) {
       const struct root_set roots = form == 0 ? solve(solver_at(s)->name, degree, BASIS_POWER, c, NULL)
                                               : solve(solver_at(s)->name, degree, BASIS_BERNSTEIN, bernstein, error);
+      bool missing = !solver_at(s)->real_only || (at >= 0.0 && at <= 1.0);
       for (int k = 0; k < roots.count; k++) {
         const struct root *root = &roots.root[k];
         if (!(hypot(root->re - at, root->im) < 0.1)) continue;
         largest = fmax(largest, root->status == status ? root->radius : INFINITY);
+        missing = false;
       }
+      if (missing) largest = INFINITY;
     }
   }
   return largest;
