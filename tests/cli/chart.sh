@@ -1,7 +1,7 @@
 # Files, columns and exit codes of `pscn chart`; peers and gnuplot that are missing.
 scene=$SCENES/bent.pscn
 small="--quick --size 32x24 --rays 128 --rounds 1"
-# Gnuplot need not be there.
+# Gnuplot may be missing.
 chart() {
   try pscn chart "$@" 2>said
   grep -v 'gnuplot is not installed' said >&2
@@ -9,7 +9,7 @@ chart() {
 chart "$scene" $small --no-peers --quiet -o out
 ls out | sed 's/chart.svg//' | grep .
 head -1 out/chart.csv
-# Each line has as many fields as the first, each family is there, and the default, with polish, is right everywhere.
+# Each line has as many fields as the first. Each family is there, and the default, with polish, is right everywhere.
 LC_ALL=C awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
   NF != n { print "fields:", NF, $0 }
   { count[$1]++ }
@@ -25,26 +25,27 @@ LC_ALL=C awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
   }' out/chart.csv
 grep -c '<table>' out/chart.html
 
-# Without peers: said, and no error. The page has the command line as a shell takes it.
+# Missing peers are reported, and are no error. The page quotes the command line for a shell.
 try pscn chart "$scene" $small --povray nowhere/povray -I '' -o "out '2'" 2>&1 | grep -e '^POV-Ray' -e '^exit'
 sed -n "s/&#39;/'/g; s/.*\(pscn chart [^<]*\).*/\1/p" "out '2'/chart.html"
 
-# Without gnuplot: the numbers are there. It is said, but not to who wants quiet: nothing is wrong.
+# Without gnuplot the numbers are there. The lack is reported, except with --quiet: nothing is wrong.
 mkdir empty
 pscn=$(command -v pscn)
 (PATH=empty; "$pscn" chart "$scene" $small --no-peers -o out3 2>&1) | grep gnuplot
 (PATH=empty; try "$pscn" chart "$scene" $small --no-peers --quiet -o out3)
 ls out3
 
-# A disk that fills, on the page or the numbers, whichever is the larger; the old results stay, and nothing else.
+# A disk that fills while the page or the numbers are written, whichever is larger. The old results stay, and nothing
+# else.
 full=$((($(stat -c %s out3/chart.csv) + $(stat -c %s out3/chart.html)) / 2048))
 sum=$(cat out3/chart.* | cksum)
 (ulimit -f $full && PATH=empty && try "$pscn" chart "$scene" $small --no-peers --quiet -o out3) 2>&1 | grep -v gnuplot | sed 's/chart.csv/chart.html/'
 [ "$sum" = "$(cat out3/chart.* | cksum)" ] || echo "old results are lost"
 ls -A out3
 
-# Nothing to hit, in an empty scene and beside a patch, in which the paper's form may see hits: said, no front, no figure,
-# no peer called a failure, and no error.
+# Nothing to hit, in an empty scene and beside a patch, where the paper's form may see hits. This is reported; there is
+# no front, no figure, no peer called a failure, and no error.
 echo 'background { rgb 0 }' >nothing.pscn
 sed "s/look_at <[^>]*>/look_at <0, 50, 0>/" "$scene" >aside.pscn
 for name in nothing aside; do
@@ -54,26 +55,26 @@ for name in nothing aside; do
   ls out4
 done
 
-# What is small in the picture is met by more rays, unless their number is asked for.
+# Objects that are small in the picture are met by more rays, unless the number of rays is given.
 sed 's/location <[^>]*>/location <0, 0.4, -20>/; s/look_at <[^>]*>/look_at <5, 2, 0>/' "$SCENES/flat.pscn" >small.pscn
 for rays in '' '--rays 1024'; do
   chart small.pscn --quick --size 320x240 $rays --rounds 1 --no-peers --quiet -o out5
   LC_ALL=C awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } NR == 2 { print ($at["rays"] > 1024), ($at["hits"] > 0) }' out5/chart.csv
 done
 
-# Standard output that takes nothing.
+# A standard output that cannot be written.
 pscn chart nothing.pscn $small --no-peers -o out8 2>/dev/null >/dev/full
 echo "exit $?"
 ls out8/chart.html && rm -r out8
 
-# The page says the command line as a shell takes it.
+# The page quotes the command line for a shell.
 cp nothing.pscn "it's \$x.pscn"
 chart "it's \$x.pscn" $small --povray nowhere/povray --quiet -o out7 2>/dev/null >&2
 eval "set -- $(sed -n "s/&#39;/'/g; s/.*<code>pscn \(.*\)<\/code>.*/\1/p" out7/chart.html)"
 printf '%s\n' "$2"
 rm -r "it's \$x.pscn" out7
 
-# A patch with a solver of its own, which means nothing here.
+# A patch with its own solver, which means nothing here.
 {
   cat "$scene"
   echo 'bicubic_patch { type 0'

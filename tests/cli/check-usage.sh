@@ -1,4 +1,4 @@
-# What check refuses, and a POV-Ray that is not there; none of this leaves a folder behind.
+# What check refuses, and a missing POV-Ray. None of this leaves a folder behind.
 try pscn check
 try pscn check $SCENES/bent.pscn --size 0x10
 try pscn check $SCENES/bent.pscn --size 8193x8192
@@ -9,11 +9,11 @@ try env PATH=/nonexistent "$(command -v pscn)" check $SCENES/bent.pscn
 try pscn check $SCENES/bent.pscn --povray ./povray 2>&1 | sed "s|$PWD|HERE|"
 try pscn check $SCENES/bent.pscn --povray /bin/true
 try pscn check - --own-text <$SCENES/bent.pscn
-# Sizes are what the scene's own words for them mean: no divisor is 0.
+# Sizes are those that the scene's own words stand for: no divisor is 0.
 echo 'background { rgb 1 / (image_width - 8) / (image_height - 12) }' >sized.pscn
 try pscn check sized.pscn --size 12x8 --povray /bin/true
 rm sized.pscn
-# A file that cannot be written in the folder is told before the work.
+# A file of the folder that cannot be written is reported before the work.
 mkdir -p full/check.html full/chart.csv
 try pscn check $SCENES/bent.pscn --povray ./povray -o full
 try pscn chart $SCENES/bent.pscn --quick --size 1x1 --rays 1 --rounds 1 --no-peers -o full

@@ -34,11 +34,11 @@ try pscn compare a.png b.png -o diff.jpg
 try pscn compare a.png b.png -o nowhere/diff.png
 try pscn compare a.png b.png -o diff.exr --fail 1 --scale 2 --quiet
 try pscn compare diff.exr diff.exr --quiet
-# Once more than once is once.
+# diff.exr has twice the difference: it differs from once.exr by it.
 pscn compare a.png b.png -o once.exr --fail 1 | awk '/^max/ { print $1, $2 }' >most
 pscn compare once.exr diff.exr --fail 2 | awk '/^max/ { print $1, $2 }' | cmp - most && echo "scaled"
-# What one code parts is not over 1/255, however the two are rounded; a picture of differences holds them as they are: a hundred
-# times one code is a hundred codes.
+# A difference of one code is not over 1/255, however both values are rounded. A picture of differences holds them
+# unrounded: a hundred times one code is a hundred codes.
 for level in 0.52100 0.52712; do echo "background { rgb $level }" | pscn render - -o $level.png --size 1x1 --quiet; done
 pscn compare 0.52100.png 0.52712.png --fail 1 --scale 100 -o by.png | grep 'max\|over 1/'
 pscn compare by.png 0.52100.png --fail 1 | grep max
@@ -46,10 +46,10 @@ rm 0.*.png by.png
 pscn compare a.png a.png >/dev/full
 echo "exit $?"
 ls -A
-# No channel's name steers a terminal.
+# No channel's name controls the terminal.
 pscn render "$SCENES/flat.pscn" --size 4x3 --channels depth -o depth.exr --quiet
 sed 's/depth/\x1b[31m/g' depth.exr >red.exr
 try pscn compare red.exr red.exr | head -n 1
 try pscn compare red.exr depth.exr
-# Pictures are files, whatever they are called.
+# Pictures are files, whatever their names.
 try pscn compare - -

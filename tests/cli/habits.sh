@@ -1,4 +1,4 @@
-# What hands type out of habit is understood, or answered with what was meant.
+# What people type out of habit is understood, or answered with what they meant.
 cp "$SCENES/flat.pscn" .
 small="--size 8X6"
 try pscn flat.pscn $small -q
@@ -44,9 +44,9 @@ try pscn render flat.pscn -o .png.foo
 try pscn compare a.png b.png -o .exr
 echo "camera { }" >empty.pscn
 try pscn render missing.pscn -o a.png
-# One patch is one patch.
+# "1 patch" is singular.
 pscn render flat.pscn $small 2>&1 | grep -c ' 1 patch,'
-# The line of progress is no longer than the terminal is wide.
+# The progress line is no longer than the terminal is wide.
 if command -v script >/dev/null; then
   for columns in 10 40 62; do
     script -qec "stty cols $columns; pscn render $SCENES/bent.pscn --size 900x900 --samples 2 -o progress.png" /dev/null |
@@ -54,7 +54,7 @@ if command -v script >/dev/null; then
       awk -v columns=$columns 'length($0) >= columns && !/answers|patches|rays  |x/ { long++ } END { print columns, long + 0 }'
   done
   script -qec "pscn render flat.pscn -o -" /dev/null | tr -d '\r'
-  # What was done is told on a terminal.
+  # The results are shown on a terminal.
   printf '%s\n' '2 -1' '1 0 0' '1e300 -6.680801335744067e148 0.0011158276623035757' >polynomials
   script -qec "pscn roots --solver 'aberth { basis bernstein }' <polynomials >/dev/null" /dev/null | tr -d '\r' |
     sed 's/; [0-9.]* s$//'

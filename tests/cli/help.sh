@@ -14,5 +14,5 @@ try pscn nothing
 try pscn --nothing
 try pscn --version now
 PSCN_KERNEL=none try pscn dump scene
-# What is no command.
+# What is not a command.
 for topic in solver channels; do try pscn help $topic; done

@@ -1,4 +1,4 @@
-# What is read is a file or a pipe; what has no end is refused at once, whoever asks for it.
+# Inputs are files or pipes. Whatever has no end is refused at once, by every command.
 scene=$SCENES/flat.pscn
 within() { try timeout 100 "$@"; }
 for device in /dev/zero /dev/full /dev/null /dev/random; do
@@ -8,7 +8,7 @@ for device in /dev/zero /dev/full /dev/null /dev/random; do
 done
 echo '#include "/dev/zero"' >device.pscn
 within pscn dump device.pscn
-# A pipe is read once, by any name.
+# A pipe is read once, whatever its name.
 mkfifo pipe
 cat "$scene" >pipe &
 pscn dump pipe | cmp - <(pscn dump "$scene") && echo same
@@ -20,7 +20,7 @@ ls -A
 # Names that lead nowhere.
 ln -s loop loop
 for name in loop device.pscn/x "$(printf 'x%.0s' {1..300})"; do within pscn dump "$name" 2>&1 | sed 's/xxx*/x.../'; done
-# Texts of NULs take no longer than others, and neither does what holds nothing for 4 GB.
+# Texts of NULs take no longer than others, nor does a file that holds nothing for 4 GB.
 nuls() { head -c 4000000 /dev/zero; }
 nuls >nuls
 within pscn dump nuls
@@ -33,7 +33,7 @@ within pscn merge empty.exr -o merged.png
 mv empty.exr long.pscn
 within pscn dump long.pscn
 echo '#include "long.pscn"' | within pscn dump -
-# Of many names only so many are looked at for what an unknown one may have meant.
+# Only a limited number of names is compared with an unknown one.
 many_names() {
   awk 'BEGIN {
     for (k = 0; k < 400000; k++) printf "#declare Name%034d = 1;\n", k
@@ -41,9 +41,9 @@ many_names() {
   }'
 }
 many_names | within pscn dump - 2>&1 | grep -c 'is not declared\|exit 3'
-# Warnings end as errors do: a million would each be looked for from the beginning of the text.
+# Warnings are limited as errors are: the place of each of a million would be sought from the beginning of the text.
 yes '#version 3.5;' | head -n 1000000 | within pscn dump - 2>&1 | grep -n 'warnings\|exit'
-# An object in which most is empty is not looked through for each of its copies.
+# An object that is mostly empty is not searched again for each of its copies.
 empty_unions() {
   echo '#declare Hollow = union { bicubic_patch { type 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 }'
   yes 'union {}' | head -n 400000
@@ -64,7 +64,7 @@ declaring_macros() {
   echo '}'
 }
 declaring_macros | within pscn dump - --max-memory 100M 2>&1 | grep 'rror\|exit'
-# So many different words of a macro are looked at; of what has more it is told.
+# The limit of different words of a macro; a macro with more is reported.
 many_words() {
   for count in 250 251; do
     echo "#macro Calls$count()"
@@ -74,13 +74,13 @@ many_words() {
   done
 }
 many_words | within pscn dump - 2>&1 | grep 'rror\|Calls\|exit'
-# Macros that call one another are followed once each, not on every way through them.
+# Macros that call one another are followed once each, not along every path.
 calling_macros() {
   for macro in {A..T}; do echo "#macro $macro()" {A..T}'()' '#end'; done
   echo '#declare Unused = union { A() }'
 }
 calling_macros | within pscn dump - | grep -c camera
-# Of a long file the memory is given back while it is read; what is told of is read again.
+# The memory of a long file is released while it is read; a part that a message shows is read again.
 long_scene() {
   local blanks k
   printf -v blanks '%60000s' ''
@@ -93,7 +93,7 @@ long_scene() {
 long_scene >long.pscn
 within pscn dump long.pscn
 long_scene | pscn dump - 2>&1 | sed 's/^stdin/long.pscn/' | cmp - <(pscn dump long.pscn 2>&1) && echo same
-# So deep may files be included, and so many, of which one is held once.
+# The limits of the depth and the number of included files; each file is held once.
 for k in {1..33}; do echo "#include \"deep$((k + 1)).inc\"" >deep$k.inc; done
 touch deep34.inc
 for k in 2 1; do within pscn dump deep$k.inc 2>&1 | grep 'rror\|exit\|background'; done

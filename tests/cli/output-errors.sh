@@ -1,19 +1,19 @@
-# A stdout that takes nothing is a file error.
+# A stdout that cannot be written is a file error.
 scene=$SCENES/flat.pscn
 for command in "help" "help render" "--version" "dump $scene" "render --help"; do
   pscn $command >/dev/full
   echo "exit $?"
 done
-# What is rendered is kept then.
+# What was rendered is kept then.
 pscn render "$scene" -o a.png --size 4x3 --stats - >/dev/full
 echo "exit $?"
 ls
 pscn render "$scene" -o a.png --size 4x3 --quiet --resume --stats - | grep primary
 rm a.png
-# A reader that goes away ends the program without a word.
+# If the reader goes away, the program ends silently.
 pscn dump "$scene" | head -c 1
 echo
-# A link to what is not there is told from a folder that is not there.
+# A dangling link is reported differently from a missing folder.
 ln -s nothing.png link.png
 ln -s nothing.exr b.png.part.exr
 mkdir nowhere && ln -s "$PWD/nowhere" gone && rmdir nowhere

@@ -18,7 +18,7 @@ for name in hard.png soft.png ./folder/../hard.png; do
 done
 try pscn render scene.pscn -o a.png --stats ./folder/../a.png $small
 try pscn render scene.pscn -o - --stats - $small
-# What is kept of a picture and the picture, by a link either way.
+# The kept part of a picture, and the picture, each through a link to the other.
 pscn render scene.pscn -o kept.exr.part.exr --tile 1/1 --size 8x6 --quiet
 ln -s kept.exr.part.exr kept.exr
 ln -s kept.exr.part.exr linked.exr
@@ -40,7 +40,7 @@ try pscn compare a.png b.png -o a.png
 try pscn compare b.png a.png -o c.png
 cksum a.png | cmp - sum && echo "the picture is the same"
 [ "$(sums)" = "$before" ] && echo "the scene is the same"
-# A folder of results, whose files have names of their own.
+# A folder of results, whose files have fixed names.
 cp scene.pscn folder/chart.html
 ln folder/chart.html folder/povray-8.png
 echo '#include "folder/chart.html"' >includes.pscn
@@ -51,7 +51,7 @@ for scene in folder/chart.html includes.pscn -; do
 done
 cmp scene.pscn folder/chart.html && ls folder
 rm -r folder/* includes.pscn
-# Standard output, too: what reads would read its own answers. try tells its exit code there.
+# Standard output, too: a command would read its own answers. There `try` reports its exit code.
 into() {
   local file=$1 code=0
   shift
@@ -75,6 +75,6 @@ cksum piece.exr | cmp - piece.sum && rm piece.exr piece.sum
 cat rays polynomials
 cksum a.png | cmp - sum && pscn compare --quiet a.png b.png && [ "$(sums)" = "$before" ] && echo "all is as it was"
 rm rays
-# What is no file cannot be overwritten.
+# What is not a file cannot be overwritten.
 try pscn render scene.pscn -o a.png $small --stats /dev/null </dev/null
 ls -A

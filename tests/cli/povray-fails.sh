@@ -1,5 +1,5 @@
-# A program that calls itself POV-Ray and fails in one of the ways there are: it is told which, the exit code is right, and
-# what check left before stays. In a chart it is left out.
+# A program in POV-Ray's place that fails in each possible way. The message says which, the exit code is right, and
+# earlier results of check stay. A chart leaves it out.
 scene=$SCENES/bent.pscn
 small="--size 8x6 --steps 0 --grid 2 --failpercent 100 --failpsnr 0 --failmask 100 --quiet"
 pscn render "$scene" --size 8x6 --quiet -o answer.png

@@ -1,4 +1,5 @@
-# SIGINT gives 130, SIGTERM 143, SIGXCPU 152; none touches the picture, and what is done is kept beside it, or nowhere.
+# SIGINT gives 130, SIGTERM 143, SIGXCPU 152. None touches the picture. The finished tiles are kept beside it, or not at
+# all.
 scene=$SCENES/bent.pscn
 echo old >a.png
 for signal in INT TERM XCPU; do
@@ -17,8 +18,7 @@ kill -INT $!
 wait $!
 echo "exit $?"
 ls -A
-# While the file is written, too: here into a pipe that nobody reads. With a small stack it is another thread that waits
-# there.
+# The same while the file is written, here into a pipe that nobody reads. With a small stack another thread waits there.
 mkfifo p.png
 (ulimit -s 2048 && exec pscn render "$scene" -o p.png --size 90x60) &
 sleep 1
@@ -34,7 +34,7 @@ pscn render "$scene" -o whole.png --size 90x60 --quiet
 pscn compare resumed.png whole.png --fail 0 --quiet; echo "exit $?"
 ls -A
 rm resumed.png stats.json
-# Likewise the statistics, which come before the picture: into a pipe that is full, and where no one reads any more.
+# The same for the statistics, which are written before the picture: into a full pipe, and one without a reader.
 mkfifo full
 for way in full left; do
   exec 3<>full
@@ -53,7 +53,7 @@ for way in full left; do
 done
 ls -A
 rm full* left* stats.json
-# What is done is not kept where it would be waited for, or be gone.
+# Nothing is kept where the program would wait, or where it would be lost.
 mkfifo a.png.part.exr
 pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --checkpoint 0.1 &
 sleep 1
@@ -61,7 +61,7 @@ kill -INT $!
 wait $!
 echo "exit $?"
 rm p.png a.png.part.exr whole.png
-# What was ignored when it was started stays so: SIGHUP under nohup, SIGPIPE under programs that ask write instead.
+# Signals ignored at the start stay ignored: SIGHUP under nohup, SIGPIPE under programs that check write instead.
 (trap '' HUP PIPE
 pscn render "$scene" -o kept.png --size 60x40 --samples 24 --quiet &
 sleep 0.2
@@ -71,7 +71,7 @@ echo "exit $?"
 (sleep 0.2; pscn dump "$scene" 2>err; echo "exit $?" >code) | true
 cat code err)
 rm -f kept.png code err
-# Whoever waits for input ends at once.
+# A program that waits for input ends at once.
 mkfifo pipe
 for command in "trace $scene" roots; do
   pscn $command --stats stats.json <pipe &

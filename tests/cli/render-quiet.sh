@@ -1,4 +1,4 @@
-# --quiet says nothing; the default name is the scene's; formats by suffix in any case; suffixes of folders do not
+# --quiet is silent. The default name is the scene's. Formats follow the suffix in any case; suffixes of folders do not
 # count.
 mkdir a.b
 cp "$SCENES/flat.pscn" a.b/scene
@@ -13,7 +13,7 @@ try pscn render flat.pscn $small -o half.exr
 try pscn render flat.pscn $small -o float.Exr --bits 32
 try pscn render flat.pscn $small -o all.exr --channels rgb,coverage,depth,u,v,patch,normal,status
 LC_ALL=C ls -A . a.b
-# Standard output gets a PNG, or an EXR where that alone holds what is asked for; a scene may be without a command there, too.
+# Standard output gets a PNG, or an EXR if only that holds what is asked for. The command may be left out there, too.
 for asked in '' '--bits 16' '--bits 32' '--channels depth' '--tile 1/2'; do
   pscn render flat.pscn $small -o - $asked | head -c 4 | LC_ALL=C od -A n -c
 done

@@ -1,4 +1,4 @@
-# The statistics: their keys, and numbers that are known. Times and the work of the intersector are only there.
+# The statistics: their keys, and known numbers. Times and the intersector's work are only checked to be there.
 work() {
   sed -E '/"(parse|build|render|write|load|version)":/d; s/("(patches_tested|subdivided|found|accepted)": )[0-9]+/\1.../'
 }
@@ -9,14 +9,14 @@ grep -c -E '"(parse|build|render|write|load)": *[0-9]' a.json
 grep -E '"(solver|tolerance|threads|primary|samples)"' a.json
 grep -A 4 '"crop"' a.json
 grep -E '"(render|write|load)": 0\.0,?$' a.json # all takes some time
-# No CPU second is in two of them, though libraries are loaded beside.
+# No CPU second counts twice, although libraries are loaded at the same time.
 TIMEFORMAT='%U %S'
 time (pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 800x600 --threads 1 --stats a.json --quiet 2>&3) \
   3>&2 2>taken
 LC_ALL=C awk -F '[ :,]+' 'NR == FNR { gsub(",", "."); split($0, t, " "); process = t[1] + t[2]; next }
   /"cpu"/ { on = 1; next } /}/ { on = 0 } on { sum += $3 }
   END { print sum < process + 0.01 ? "as much as the process" : sum " of " process }' taken a.json
-# What is told on standard error is the same: where all stages are come to, and where nothing is proven.
+# Standard error reports the same numbers: for a scene that uses all stages, and one where nothing is proven.
 for solver in 'aberth { split 1 }' 'laguerre { form paper }'; do
   pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 40x30 --solver "$solver" --stats a.json 2>said
   LC_ALL=C awk -F '[ :,"]+' '
@@ -37,11 +37,11 @@ done
 echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats - | work
 echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats a.json >/dev/null
 grep -E '"(parse|build|render)": 0\.0,?$' a.json
-# Names that are no UTF-8.
+# Names that are not UTF-8.
 cp "$scene" $'fl\xe4t.pscn'
 try pscn render $'fl\xe4t.pscn' -o $'\xc3\xa4\xff.png' --size 4x3 --quiet --stats name.json
 grep -E '"(scene|picture)"' name.json
-# A thread for each processor that may be used.
+# One thread for each processor that may be used.
 first=$(sed -n 's/^Cpus_allowed_list:[[:blank:]]*\([0-9]*\).*/\1/p' /proc/self/status)
 if command -v taskset >/dev/null; then
   taskset -c "$first" "$PWD/../pscn" render "$scene" -o a.png --size 64x64 --stats - --quiet | grep '"threads"'

@@ -1,9 +1,9 @@
-# What ends a rendering costs little of its work: --resume goes on to the same bits, or says what has changed.
+# An ended rendering loses little work: --resume continues to the same bits, or says what has changed.
 scene="$SCENES/bent.pscn --size 300x200 --samples 7"
 pscn render $scene -o one.exr --quiet --checkpoint 0.02
 all=$((300 * 200 * 7 * 7))
-# end SIGNAL FILE OPTION...: ends a rendering by the signal when a part of it is done. On a busy machine it may be done
-# before the signal comes; then it is begun again.
+# end SIGNAL FILE OPTION...: ends a rendering by the signal when a part of it is done. On a busy machine it may finish
+# before the signal comes; then it is started again.
 end() {
   local signal=$1 file=$2 status
   shift 2
@@ -20,7 +20,7 @@ end() {
   rm -f said
   [ -e $file ] && echo "$file is there"
 }
-# The bits of one.exr, by fewer rays than all.
+# The bits of one.exr, with fewer rays than all of it takes.
 resumed() {
   pscn render $scene -o $1 --resume --quiet --stats stats.json
   primary=$(sed -n 's/.*"primary": \([0-9]*\).*/\1/p' stats.json)
@@ -36,17 +36,17 @@ end TERM again.png --resume
 pscn render $scene -o again.png --resume --quiet
 pscn render $scene -o one.png --quiet
 pscn compare again.png one.png --fail 0 --quiet && echo 'again.png is one.png'
-# What is kept is a piece of the picture.
+# The kept file is a piece of the picture.
 end INT half.exr
 pscn merge half.exr.part.exr -o no.png; echo "exit $?"
 cp half.exr.part.exr some.exr
-# It goes on with nothing else.
+# Nothing else is continued.
 try pscn render $scene -o half.exr --resume --samples 3
 try pscn render $scene -o half.exr --resume --size 30x20
 try pscn render $scene -o half.exr --resume --tile 1/2
 try pscn render $scene -o half.exr --resume --solver newton
 try pscn render $scene -o half.exr --resume --tolerance 1e-3
-# What says that it is of this picture but has another size is no part of it.
+# A file that claims to be of this picture, but has another size, is no part of it.
 small="$SCENES/bent.pscn --size 30x20 --quiet"
 pscn render $SCENES/bent.pscn --size 90x80 --tile 1/1 -o larger.exr --quiet
 sed 's/90x80/30x20/g; s/0,0,90,80/0,0,30,20/g' larger.exr >small.exr.part.exr
@@ -61,7 +61,8 @@ try pscn render $small --tile 2/2 -o small.exr --resume
 rm small.exr.part.exr
 echo no picture >half.exr.part.exr
 pscn render $scene -o half.exr --resume 2>&1; echo "exit $?"
-# Nor without being asked to, but it says so. It goes when the picture is complete: a part of another picture too.
+# Nothing is continued unless asked for, but that is said. A complete picture removes the kept file, even a part of
+# another picture.
 for part in one.exr some.exr; do
   cp $part half.exr.part.exr
   pscn render $SCENES/flat.pscn --size 20x10 -o half.exr --quiet
@@ -71,11 +72,12 @@ for part in one.exr some.exr; do
   head -n 1 said
 done
 rm said
-# A file that has some tiles twice counts for none: what is missing without it is told.
+# A file that has some tiles twice counts for none: the tiles missing without it are reported.
 pscn render $scene --tile 1/1 -o all.exr --quiet
 try pscn merge some.exr all.exr -o no.png
 rm some.exr
-# Who forgot --resume and ends the rendering for that loses nothing; when the picture is complete what was kept of it goes.
+# Whoever forgets --resume, and ends the rendering therefore, loses nothing. A complete picture removes what was kept of
+# it.
 for attempt in {1..20}; do
   cp all.exr left.exr.part.exr
   rm -f said
@@ -89,7 +91,7 @@ grep interrupted said
 rm said
 cmp all.exr left.exr.part.exr && echo 'what was left is there'
 pscn render $scene -o left.exr 2>&1 | grep earlier
-# What is damaged is not spared for what is done now.
+# A damaged file does not prevent keeping the new tiles.
 for attempt in {1..20}; do
   rm -f cut.exr
   head -c -1000 all.exr >cut.exr.part.exr
@@ -101,7 +103,7 @@ done
 sed -n 's/the [0-9]* %/so many %/p; /earlier/p' said
 resumed cut.exr
 rm all.exr said
-# --checkpoint 0: what is there stays as it is while the picture is rendered.
+# --checkpoint 0: an existing file stays unchanged while the picture is rendered.
 pscn render $SCENES/flat.pscn --size 20x10 --tile 1/1 -o other.exr --quiet
 cp other.exr never.exr.part.exr
 pscn render $scene -o never.exr --threads 1 --checkpoint 0 2>said &
@@ -111,13 +113,13 @@ kill -KILL $! 2>/dev/null
 wait $! 2>/dev/null
 cmp other.exr never.exr.part.exr && echo 'nothing is kept'
 rm -f other.exr never.exr* said
-# Nor is what has no tile yet: all of this is in one.
+# Nor is a rendering kept without a finished tile: all of this picture is one tile.
 pscn render $SCENES/bent.pscn --size 32x32 --samples 99 -o none.exr --threads 1 --checkpoint 0.05 --quiet &
 sleep 0.5
 kill -KILL $! 2>/dev/null
 wait $! 2>/dev/null
 [ -e none.exr.part.exr ] && echo 'nothing is kept as something'
 rm -f none.exr*
-# Nothing to go on from.
+# Nothing to continue.
 pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
 LC_ALL=C ls

@@ -1,4 +1,4 @@
-# The values on the way to the roots: steps are numbered without a gap from 0, and each way ends at a root.
+# The values on the way to the roots. Steps are numbered from 0 without a gap, and each way ends at a root.
 printf '%s\n' '1 -1.7 0.9 -0.125' '1 0 0 -8 1' '16 0 -20 0 5 0' >polynomials
 for solver in bernstein newton laguerre aberth durand_kerner 'newton { form paper }' 'laguerre { form paper }' \
   'aberth { form paper }' 'aberth { basis bernstein }' 'durand_kerner { form paper }'; do
@@ -28,6 +28,6 @@ for solver in bernstein newton laguerre aberth durand_kerner 'newton { form pape
       print solver ": " (ways > 0 ? "ways" : "no way") ", " lost + 0 " of them end at no root"
     }' roots ways
 done
-# Where nothing is iterated nothing is said; and the formats do not mix.
+# If nothing is iterated, nothing is printed. The formats cannot be combined.
 printf '4 -1\n1 0 0\n' | try pscn roots --iterates
 try pscn roots --iterates --format json </dev/null

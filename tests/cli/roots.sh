@@ -1,14 +1,14 @@
-# Polynomials and roots. Where an answer is printed it is exact in double, whatever the order of the roundings.
+# Polynomials and roots. The printed answers are exact in double, whatever the order of roundings.
 try pscn roots </dev/null
 printf '%s\n' '2 -1' '1 0 1' '1 0 0' '0 0 5' '0 0 1 -1' '+.5   1e0 0.' '1 0 -1 0' | try pscn roots
-# Lines may end with CR LF, and the last one need not end.
+# Lines may end with CR LF; the last one may have no end.
 printf '4 -1\r\n1\t-1' | try pscn roots
 for solver in bernstein newton laguerre aberth 'aberth { basis bernstein }' 'newton { form paper }'; do
   printf '1 -0.25 0\n4 -1\n8 -1 0 0\n' | try pscn roots --solver "$solver"
 done
-# Of one real part they come by the imaginary part.
+# Roots of equal real part are sorted by the imaginary part.
 echo '1 0 5 0 4' | try pscn roots --solver laguerre
-# Only the real roots in [0,1]; a pair that is none has an empty line.
+# Only real roots in [0,1]; the line of a complex pair is empty.
 printf '1 1 1\n1 -3 0\n' | try pscn roots --solver bernstein
 printf '2 -1\n1 0 0\n' | pscn roots --stats stats.json --tolerance 1e-3 | wc -l
 grep -v '"solve"' stats.json
@@ -19,25 +19,25 @@ coproc pscn roots
 echo '2 -1' >&"${COPROC[1]}"
 read -r -t 60 answer <&"${COPROC[0]}"
 echo "$answer"
-# What is known of each root, and of those that are missing.
+# What is known of each root, and of missing ones.
 for format in table json; do
   printf '%s\n' '4 -1' '1 0 0 0' '1e-320 1 -1' | try pscn roots --format "$format"
 done
 # A radius is rounded up: the root of the second row is at 3.3404e-152.
 echo '1e300 -6.680801335744067e148 0.0011158276623035757' |
   try pscn roots --solver 'aberth { basis bernstein }' --format table
-# What is lost where coefficients are made smaller is in the radius: the first has roots at +-1e-300, which are given as 0.
+# What scaling coefficients down loses is in the radius: the first one has roots at +-1e-300, which are given as 0.
 printf '%s\n' '1e300 0 -1e-300' '1 0 0' |
   pscn roots --solver 'aberth { basis bernstein }' --format json | grep -c '"radius":0.0,.*"radius":0.0,'
-# Zeros that a polynomial begins with are not missing in the other basis either, where a root at 1 is known as well; and
-# they do not count as degrees in eq 11.
+# Zeros at the beginning of a polynomial are not missing in the other basis either, where a root at 1 is known, too.
+# They do not count as degrees in eq 11.
 printf '%s\n' '1 -1' '0 4 -4' '0 0 5' '0 0 2 -1' '1 -2 1' | try pscn roots --solver 'aberth { basis bernstein }'
 printf '%s\n' '3 -0.1' '0 0 3 -0.1' | pscn roots --format json | sed 's/.*"eq11":\([^}]*\)}.*/\1/' | uniq | wc -l
-# A basis is said by its item, not by a word of a comment.
+# An item sets the basis, not a word in a comment.
 for text in 'aberth' 'aberth /* no basis */' 'aberth { basis bernstein }' 'aberth { form paper }' 'aberth { form paper basis bernstein }'; do
   echo '2 -1' | pscn roots --solver "$text" --stats - | grep '"solver"'
 done
-# A radius that is not known is null in JSON; the share of accurate roots is of those that are told, the missing ones aside.
+# An unknown radius is null in JSON. The share of accurate roots is of those listed, without the missing ones.
 echo '1 -3 3 -1 0 0 0 1 1' | pscn roots --solver 'laguerre { basis bernstein max_iterations 1 }' --format json |
   grep -o '"radius":null,"status":"unknown"' | uniq
 for iterations in 2 100; do
@@ -45,5 +45,5 @@ for iterations in 2 100; do
     grep '"accurate"'
 done
 echo '1e-320 1 -1' | pscn roots --format json --stats - | grep '"roots": \|"missing": '
-# Of no polynomials there are statistics too.
+# No polynomials have statistics, too.
 pscn roots --stats - </dev/null | grep -v '"solve"'

@@ -12,7 +12,7 @@ for command in dump trace render; do
   try pscn $command many.pscn 2>&1 | sed -n 's/than [0-9]* patches/than N patches/; s/^many.pscn:[0-9:]*/many.pscn:/; /error\|exit/p'
 done
 try pscn dump many.pscn --max-memory 1M
-# Why it ended is said behind errors of the text, too.
+# After errors of the text, too, the reason of the end is reported.
 head -c 3M /dev/zero | tr '\0' ' ' >blank.inc
 printf 'foo\n#include "blank.inc"\n' >word.pscn
 try pscn dump word.pscn --max-memory 1M

@@ -1,4 +1,4 @@
-# Folders of included files, names declared on the command line, warnings of a scene that shows nothing.
+# Folders of included files, names declared on the command line, warnings for a scene that shows nothing.
 mkdir first second
 echo '#declare Where = 1;' >first/where.inc
 echo '#declare Where = 2;' >second/where.inc
@@ -33,7 +33,7 @@ try pscn render scene.pscn -o a.png --size 4x3 2>&1 | grep 'warning\|exit'
 try pscn render scene.pscn -o a.png --size 4x3 --quiet
 try pscn dump scene.pscn --quiet >/dev/null
 
-# Wherever a scene is read.
+# With every command that reads a scene.
 echo '#include "where.inc" background { rgb Where * Level }' >scene.pscn
 rm where.inc
 for command in 'render -o a.png --size 4x3' trace dump 'check --povray nowhere' 'chart --no-peers --quiet --size 2x2 --rays 1 --rounds 1'; do

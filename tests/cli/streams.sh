@@ -11,7 +11,7 @@ echo '#include "flat.pscn"' | pscn dump - | cmp - <(pscn dump flat.pscn) && echo
 try pscn trace - </dev/null
 try pscn dump - <.
 try pscn dump - <&-
-# A closed stream is an error where it is used, and nothing else takes its place.
+# A closed stream is an error when it is used, and no other file takes its place.
 (pscn compare a.png a.png >&-; echo "exit $?" >&2)
 pscn render "$SCENES/bent.pscn" -o f.png $small
 (pscn compare a.png f.png >&-; echo "exit $?" >&2)

@@ -16,7 +16,7 @@ bad '0 0 0 0 0 1.2.3'
 bad '0 0 0 0 0 1e'
 bad '0 0 0 \0 0 1'
 printf "$good\n$good\n1 2" | try pscn trace "$scene"
-# The line's number is right far down, and every answer before it is there.
+# A line's number is right far down, and every answer before it is there.
 (for k in $(seq 3000); do echo "$good"; done; echo "worse") | pscn trace "$scene" | sort | uniq -c | sed 's/^ *//'
 printf '0123456789' | try pscn trace "$scene" --binary
 head -c 48 /dev/zero | try pscn trace "$scene" --binary
@@ -25,7 +25,7 @@ try pscn trace "$scene" <&-
 try pscn trace "$scene" < .
 echo "$good" | pscn trace "$scene" >/dev/full
 echo "exit $?"
-# What cannot be written is told before anything is answered.
+# An output that cannot be written is reported before any answer.
 echo "$good" | try pscn trace "$scene" --stats nowhere/a.json
 try pscn trace
 try pscn trace "$scene" "$scene"

@@ -1,4 +1,5 @@
-# The story of a ray: its last lines are the answers, its r goes back into pscn roots, and the root taken is among them.
+# The story of a ray. Its last lines are the answers. Its r can be given to pscn roots, and the root taken is among the
+# answers.
 printf '%s\n' '0.3 0.2 -4 0 0.1 1' '0.3 0.2 4 0.1 0 -1' '9 0 -4 0 0 1' '-0.4 0.1 -9 0.02 0 2' >rays
 for scene in "$SCENES"/flat.pscn "$SCENES"/bent.pscn; do
   for solver in bernstein newton laguerre aberth durand_kerner 'newton { form paper }' 'aberth { form paper }'; do
@@ -33,7 +34,7 @@ for scene in "$SCENES"/flat.pscn "$SCENES"/bent.pscn; do
       }' story roots
   done
 done
-# Each of its words is said of some ray: beside poles, along borders, past patches that wave.
+# Each of the story's phrases occurs for some ray: beside poles, along borders, past patches that wave.
 printf '%s\n' '0 9 0 0 -1 0' '1.48 -2.51 2.58 -0.72 0.55 -0.09' '0 1 -8 0 0 1' '0 0 -9 0 0 1' '0.01 9 0.02 0 -1 0' \
   '-2.83 -0.21 2.66 0.3 0.8 -0.77' '0 -0.97 -2.47 -0.46 0.56 0.73' >rays
 for k in $(seq 40); do echo "$((k % 7 - 3)).1 $((k % 5 - 2)).2 -3 0.0$((k % 9)) -0.$((k % 8)) 1"; done >>rays
@@ -69,7 +70,7 @@ roots by aberth, asked for this story
 the nearest so far; a part is left to the last resort
 = [^ ]* [+-][0-9.e-]* i, [0-9]* iterations, .* refused: not real
 END
-# How many candidates are left to the last resort is counted ray by ray.
+# Candidates left to the last resort are counted ray by ray.
 awk '
   /^ray/ { left = candidates = 0 }
   /^candidate/ { candidates++ }
@@ -77,14 +78,14 @@ awk '
   /^last resort:/ { several += left > 1; wrong += $3 != left || $5 != candidates }
   END { print (several > 0 ? "several" : "never several") ", " wrong + 0 " wrong" }' story
 grep ' [+-]0 i' story # no real root is told as a complex one
-# One whole, on a plane patch, where all numbers are exact.
+# One whole story, on a plane patch, where all numbers are exact.
 printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'aberth { split 1 }' | grep -v ' root\|= '
 # From so far away that double precision tells nothing.
 printf '%s\n' '-1e31 -1e31 -1e31 1 1 1' | pscn trace "$SCENES/flat.pscn" --explain
 try pscn trace "$SCENES/flat.pscn" --explain --binary </dev/null
 try pscn trace "$SCENES/flat.pscn" --explain --all </dev/null
-# Sheets in one another's boxes are cut finer, so that few are tried, beside something large as well; but not where it is said how
-# they are cut, nor by what lies on others.
+# Sheets in one another's boxes are cut finer, so that few are tried, even beside something large. But not if the scene
+# says how they are cut, nor because of patches that lie on others.
 sheet() { # BEND MOVED...
   echo "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3"
   for y in -1 -0.3 0.3 1; do echo "<-1, $y, 0>, <-0.3, $y, $1>, <0.3, $y, $1>, <1, $y, 0>$([ $y = 1 ] || echo ,)"; done
@@ -101,10 +102,11 @@ done
 cuts() { sed -n 's|^candidate.*\(/[0-9]*\) x .*\(/[0-9]*\), .*|\1 \2|p' | sort | uniq -c; }
 pscn trace sheets.pscn --explain --solver 'bernstein { split 2 }' <ray | cuts
 pscn trace twins.pscn --explain <ray | cuts
-# No finer than what cannot be decided has room for.
+# No finer than there is room for what cannot be decided.
 for k in $(seq 0 79); do sheet 16 translate $k/100000*z; done >rolled.pscn
 pscn trace rolled.pscn --explain <ray | cuts | sed -n 's/.*\///p' | sort -nr | head -n 1
-# Where roots are the answer they are asked for of a leaf in whose pole the ray starts, too; else it is known to be missed.
+# If the answer is a root, it is also asked for of a leaf in whose pole the ray starts. Otherwise that leaf is known to
+# be missed.
 cat >tip.pscn <<'END'
 bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3
   <0,1,0> <0,1,0> <0,1,0> <0,1,0>  <0.4,0.8,0> <0.4,0.8,0.2> <0.2,0.8,0.4> <0,0.8,0.4>
