@@ -1,13 +1,13 @@
 #!/bin/bash
-# coverage.sh: how much of the sources the tests run, and how much the inputs of the fuzz targets run by themselves: lines
-# and branches by folder, as the table of docs/testing.md. Builds into build-coverage (gcc, -O1) and runs ctest's tests
-# with PSCN_EFFORT (0.0001) of the heavy ones: half an hour on two cores.
+# coverage.sh: how much of the sources the tests run, and how much the inputs of the fuzz targets run alone: lines and
+# branches by folder, as the table of docs/testing.md. Builds into build-coverage (gcc, -O1) and runs ctest, heavy tests
+# with PSCN_EFFORT (0.0001): half an hour on two cores.
 #
 #   coverage.sh           the table
-#   coverage.sh missing   which lines and branches the tests of the last table did not run, as HTML
+#   coverage.sh missing   the lines and branches that the tests of the last table did not run, as HTML
 #
-# Branches are gcov's: each way out of each conditional jump. A source compiled for several instruction sets counts once,
-# as run where one of them was run. src/packaging is left out: its programs run while pscn is built.
+# Branches are gcov's: each way out of each conditional jump. A source compiled for several instruction sets counts
+# once, as run if one of them was. src/packaging is left out: its programs run while pscn is built.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -25,7 +25,7 @@ install_packages "${BUILD_PACKAGES[@]}" gcovr libcmocka-dev
 cmake --preset coverage >"$build.log"
 cmake --build "$build" >>"$build.log"
 
-# count NAME: takes the counters there are, and says "FOLDER NAME lines run branches taken" for each folder.
+# count NAME: takes the present counters, and prints "FOLDER NAME lines run branches taken" for each folder.
 count() {
   report --object-directory "$build" --json "$build/$1.json" "$build" 2>/dev/null
   report --add-tracefile "$build/$1.json" --csv | awk -F, -v name="$1" '
@@ -39,9 +39,9 @@ count() {
 }
 
 find "$build" -name '*.gcda' -delete
-# A test that runs into its time limit leaves no counts, so each has ten times as long.
+# A test that exceeds its time limit leaves no counts, so the limits are ten times as long.
 find "$build" -name CTestTestfile.cmake -exec sed -i 's/ TIMEOUT "[0-9]*/&0/' {} +
-# The library with counters in it asks for more than it should: library-install would say so.
+# With counters in it the library needs more symbols than it may; library-install would complain.
 PSCN_EFFORT=${PSCN_EFFORT:-0.0001} ctest --test-dir "$build" -E '^library-install$' --output-on-failure -j "$(nproc)" \
   >"$build/tests.log" ||
   sed -n '/tests passed/,$p' "$build/tests.log" >&2

@@ -1,6 +1,6 @@
 #!/bin/sh
-# layout.sh: whether every C and C++ source is laid out as .clang-format says. To lay one out: clang-format -i FILE.
-# Other versions of clang-format than 14 lay out a little differently: without that one nothing is checked.
+# layout.sh: checks that every C and C++ source has the layout of .clang-format. To lay one out: clang-format -i FILE.
+# Versions of clang-format other than 14 differ a little: without that one nothing is checked.
 cd "$(dirname "$0")/.." || exit 1
 for program in clang-format-14 clang-format; do
   "$program" --version 2>/dev/null | grep -q 'version 14\.' || continue

@@ -1,6 +1,6 @@
 #!/bin/sh
-# names.sh: whether every constant and macro that a header of src defines is used somewhere; comments do not count. One that
-# nothing asks any more says what is no longer so.
+# names.sh: checks that every constant and macro defined in a header of src is used somewhere; comments do not count.
+# One that is no longer used states what no longer holds.
 cd "$(dirname "$0")/.." || exit 1
 find src grammar tests examples -name '*.[chly]' -o -name '*.cpp' | sort | xargs awk '
   {

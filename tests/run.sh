@@ -8,11 +8,11 @@
 #                           build too where clang is installed. This is what .ci/run calls
 #   tests/run.sh NAME...    the tests of these names (as `ctest -N` lists them), with all they say
 #
-# Ends by ctest's summary; the exit code is not 0 if any test failed.
+# Ends with ctest's summary. The exit code is not 0 if any test failed.
 #
-# CC and CXX are the compilers, gcc and g++ unless they are set; the build of --all that is not run is clang's.
-# PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`: hours), stands for all passes
-# where it is set; PSCN_SEED=N takes other rays for every N.
+# CC and CXX are the compilers, by default gcc and g++; the build of --all that is only compiled is clang's.
+# PSCN_EFFORT, if set, is the fraction of the heavy tests in all passes (a number up to 1, or `full`: hours).
+# PSCN_SEED=N takes other rays for every N.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -27,14 +27,14 @@ esac
 
 TEST_PACKAGES=(chromium clang-format dpkg-dev libcmocka-dev libflint-arb-dev locales openimageio-tools povray
   povray-examples povray-includes parallel python3-numpy)
-# Of 1. Sanitized code looks for faults of memory and arithmetic, which show on few rays.
+# Fractions of 1. Sanitizers look for faults of memory and arithmetic, which show on few rays.
 QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
-# Hundreds of pictures and their comparison with a peer's, programs started all over, and arithmetic: the code they run is
-# looked at by other tests already.
+# Hundreds of pictures compared with a peer's, programs started again and again, and arithmetic: other tests already run
+# their code.
 ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|kinds|examples|farm-slurm)|paper-counts'
 ASAN_WITHOUT+='|unit-(certificate|quadric-(avx512_narrow|baseline)|split)|accuracy-cycles'
 ASAN_WITHOUT+='|property-(flats|refine|sizes|solvers|twins|unkept)|cli-(merge|resume|povray-fails|render-same))$'
-# Left out of the development build's pass then: the sanitizers' has done the same, and seen more.
+# Then these are left out of the development build's pass: the sanitizers' pass has done the same, and seen more.
 ALL_WITHOUT='^(fault-(commands|files)|peers-(check-.*|chart|dump|windows)|cli-(chart|compare|habits))$'
 JOBS=$(nproc)
 
@@ -50,15 +50,15 @@ build() {
   cmake --build "build-$preset" -- -j "$JOBS"
 }
 
-# run PRESET EFFORT [OPTION...]: ctest, where EFFORT stands unless PSCN_EFFORT is set. A test more than there are processors:
-# some wait for other programs.
+# run PRESET EFFORT [OPTION...]: runs ctest, with EFFORT unless PSCN_EFFORT is set. One test more at once than there are
+# processors, because some wait for other programs.
 run() {
   local preset=$1 effort=${PSCN_EFFORT:-$2}
   shift 2
   PSCN_EFFORT=$effort ctest --test-dir "build-$preset" --output-on-failure --no-tests=error -j $((JOBS + 1)) "$@"
 }
 
-# A German locale of our own: nothing is changed outside the build folder.
+# A German locale of our own: nothing outside the build folder is changed.
 comma_locale() {
   local folder=$1/locale
   if [ ! -d "$folder/de_DE.UTF-8" ] && command -v localedef >/dev/null; then

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Compares the answers of two builds, bit for bit: `tests/same_answers.sh OLD NEW`, two programs `pscn`. For a change that
-# is meant to change no answer: every scene of scenes/, the solvers and forms below, every instruction set that the
-# processor has; camera-like and random rays from a fixed generator. Prints what differs; exits 1 where something does.
-# RAYS=N sets how many rays a scene (2000).
+# Compares the answers of two builds bit for bit: `tests/same_answers.sh OLD NEW`, two programs `pscn`. For a change
+# that should change no answer: every scene of scenes/, the solvers and forms below, every instruction set of the
+# processor; camera-like and random rays from a fixed generator. Prints the differences; exits 1 if there are any.
+# RAYS=N sets the number of rays a scene (2000).
 set -euo pipefail
 [ $# -eq 2 ] || { echo "usage: $0 OLD NEW" >&2; exit 2; }
 old=$(realpath "$1") new=$(realpath "$2") # not what PATH would find by such a name
@@ -17,7 +17,7 @@ forms=('' 'bernstein { split 1 }' 'bernstein { split 3 }' 'newton' 'laguerre { s
   'aberth { split 1 start previous }' 'aberth { basis power }' 'aberth { basis power resultant sylvester
   back_substitution euclid polish off split 1 }' 'newton { polish off split 1 }')
 
-# Half of the rays from a sphere of radius 12 towards points near the middle, half starting near it.
+# Half of the rays go from a sphere of radius 12 towards points near the middle, half start near it.
 awk -v n="${RAYS:-2000}" 'BEGIN { srand(20240511); for (k = 0; k < n; k++) {
   far = k % 2 ? 12 : 2
   for (c = 0; c < 3; c++) { o[c] = far * (2 * rand() - 1); t[c] = 2.5 * (2 * rand() - 1) + (c == 1) }

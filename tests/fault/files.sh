@@ -1,7 +1,7 @@
 #!/bin/bash
-# What becomes of files when the disk is full or read-only, the name is strange, two write at once, memory is short, or the
-# process is killed at any moment: the file is whole or what it was, no other one is left, the exit code is right.
-# PSCN_SEED=N chooses other moments; PSCN_EFFORT=full four times as many.
+# What happens to files if the disk is full or read-only, the name is strange, two programs write at once, memory is
+# short, or the process is killed at any moment: the file is whole or unchanged, no other one is left, the exit code is
+# right. PSCN_SEED=N chooses other moments; PSCN_EFFORT=full makes it four times as many.
 set -uo pipefail
 self=$(realpath "$0")
 said=$(mktemp)
@@ -15,7 +15,7 @@ moments=6
 [ "${PSCN_EFFORT:-}" != full ] || moments=24
 
 wrong() { echo "wrong: $*"; failed=1; }
-# expect CODE COMMAND...: the exit code, which is the command's answer; what fails says why
+# expect CODE COMMAND...: asserts the command's exit code; a failure prints why
 expect() {
   local wanted=$1 code=0
   shift
@@ -23,11 +23,11 @@ expect() {
   [ "$code" = "$wanted" ] || { wrong "exit $code instead of $wanted: $*"; cat "$said"; }
   [ "$code" = 0 ] || [ -s "$said" ] || wrong "exit $code and nothing said: $*"
 }
-# only NAME...: nothing else is in the folder
+# only NAME...: asserts that nothing else is in the folder
 only() { [ "$(ls -A)" = "$(printf '%s\n' "$@" | LC_ALL=C sort)" ] || wrong "here are: $(ls -A | tr '\n' ' ')"; }
 export LC_ALL=C
 
-# A program that answers check as POV-Ray does, with a picture of ours: pretend FOLDER
+# pretend FOLDER: makes a program that answers check as POV-Ray does, with a picture of ours
 pretend() {
   "$PSCN" render "$scene" $small -o "$1/answer.png"
   printf '#!/bin/sh\necho POV-Ray 3.7.0\ncat %s >picture.png\n>answers.txt\n' "$1/answer.png" >"$1/povray"
@@ -35,7 +35,7 @@ pretend() {
   check="$check --povray $1/povray"
 }
 
-# On a small file system of its own, full and then read-only.
+# On a small file system of its own, first full, then read-only.
 if [ "${1:-}" = inside ]; then
   cd "$2" && mount -t tmpfs -o size=200k pscn . && cd . && cd "$2" || exit 77
   check="$check --povray $3/povray"
@@ -46,7 +46,7 @@ if [ "${1:-}" = inside ]; then
   expect 4 "$PSCN" render "$scene" --size 300x300 --quiet --bits 32 --channels rgb,depth,normal,u,v -o new.exr
   only a.png old.exr polynomials
   mkdir old && echo old | tee old/chart.html old/check.html >/dev/null
-  # What cannot be replaced is told before there is a scene to read: a file that is mounted by itself, another user's in a
+  # What cannot be replaced is reported before the scene is read: a mount point that is a file, another user's file in a
   # sticky folder.
   touch mounted.png other.png && mount --bind other.png mounted.png
   expect 4 "$PSCN" render missing.pscn -o mounted.png
@@ -82,8 +82,8 @@ if [ "${1:-}" = inside ]; then
   exit "$failed"
 fi
 
-# All else in a folder that is removed from outside: a child that is killed before it has become a program does what the
-# shell that it was has trapped.
+# Everything else in a folder that is removed from outside: a child killed before it has become a program runs the traps
+# of the shell that it was.
 if [ "${1:-}" != within ]; then
   folder=$(mktemp -d)
   "$self" within "$folder"
@@ -113,7 +113,7 @@ expect 0 "$PSCN" render "$scene" $small -o pipe.png
 wait
 [ -p pipe.png ] || wrong "the pipe is gone"
 rm pipe.png
-# A device that is always full: by its name, and where a name leads to it.
+# A device that is always full: by its own name, and through another name.
 expect 4 "$PSCN" roots --stats /dev/full <<<'1 0 -1' >/dev/null
 ln -s /dev/full full.png
 expect 4 "$PSCN" render "$scene" $small -o full.png
@@ -131,13 +131,13 @@ expect 0 "$PSCN" render "$scene" $small -o link.png
 only a.png copy.png link.png
 rm link.png
 
-# Many to one name.
+# Many programs write to one name.
 for k in 1 2 3 4; do "$PSCN" render "$scene" $small -o copy.png & done
 wait
 expect 0 "$PSCN" compare a.png copy.png --quiet
 only a.png copy.png
 
-# Without the module that writes pictures, which is loaded beside the rendering: told, and the rendering ends.
+# Without the module that writes pictures, which is loaded while rendering begins: reported, and the rendering ends.
 mkdir alone
 cp "$PSCN" alone/pscn
 expect 4 timeout 60 alone/pscn render "$scene" --samples 64 --quiet -o b.png
@@ -145,12 +145,12 @@ grep -q "cannot write pictures" "$said" || wrong "the missing module was not tol
 rm -r alone
 only a.png copy.png
 
-# Little address space, in which OpenImageIO would not come up (a sanitizer needs more for itself).
+# Little address space, too little for OpenImageIO (a sanitizer needs more for itself).
 if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 50000 200000 300000 395000 410000 425000 440000; do
     (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "in $kilobytes KB"
   done
-  # What an earlier run has left is no less whole where only the room for its pixels is missing.
+  # The file of an earlier run stays whole if only the room for its pixels is missing.
   large="--size 6000x4000 --tile 1/23000"
   expect 0 "$PSCN" render "$scene" $large -o large.exr.part.exr
   kilobytes=440000
@@ -158,8 +158,8 @@ if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   (ulimit -v $((kilobytes + 300000)) && "$PSCN" render "$scene" $large -o large.exr) >"$said" 2>&1
   grep -q -e '--resume goes on' "$said" || wrong "a part that there is no room for is called useless"
   rm -f b.png large.exr*
-  # Little memory for data, few threads, little stack, which OpenImageIO would not come up with and a hard ray would not end
-  # with (likewise).
+  # Little memory for data, few threads, little stack: too little for OpenImageIO, or for a hard ray (a sanitizer needs
+  # more, as above).
   for kilobytes in 40000 70000 85000 100000; do
     (ulimit -d $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "with $kilobytes KB of data"
   done
@@ -174,16 +174,16 @@ if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 64 200 1000; do
     (ulimit -s $kilobytes && expect 0 "$PSCN" trace "$scene" <<<'0 0 -9 0 0 1' >/dev/null && exit "$failed") || wrong "with $kilobytes KB of stack"
   done
-  # Little stack, and no room for another one.
+  # Little stack, and no room for a larger one.
   (ulimit -s 512 && ulimit -v 8000 && expect 5 "$PSCN" dump "$scene" && exit "$failed") || wrong "without room for a stack"
 fi
 
-# A file that is said to be one, and waits for what never comes.
+# A file that calls itself regular, and whose data never come.
 if [ -r /proc/kmsg ]; then
   expect 4 timeout 10 "$PSCN" dump /proc/kmsg
 fi
 
-# Stopped at any moment.
+# Ended by a signal at any moment.
 "$PSCN" render "$scene" $small -o new.png
 for signal in KILL INT TERM HUP; do
   for k in $(seq $moments); do
@@ -207,7 +207,7 @@ for signal in KILL INT TERM HUP; do
   done
 done
 
-# Folders of results: the page is what it was or is whole, and the program that was started has ended too.
+# Folders of results: the page is unchanged or whole, and the program that was started has ended, too.
 export TMPDIR=$folder/tmp
 mkdir "$TMPDIR"
 for signal in KILL TERM; do

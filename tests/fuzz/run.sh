@@ -1,12 +1,12 @@
 #!/bin/bash
-# run.sh SECONDS [TARGET...]: lets libFuzzer run each target (all, where none is named) for so many seconds of CPU, one
-# after the other, under address, undefined and leak sanitizers. Needs clang; builds into build-fuzz at first.
+# run.sh SECONDS [TARGET...]: lets libFuzzer run each target (by default all) for this many seconds of CPU time, one
+# after the other, under address, undefined and leak sanitizers. Needs clang; first builds into build-fuzz.
 #
-# Inputs begin with seeds/, found/, the scenes of the project and of its tests; what covers more is kept in
-# build-fuzz/corpus and taken up by the next run. What crashes, leaks or takes longer than PSCN_FUZZ_TIMEOUT seconds by the clock (100)
-# ends the target: it is put into build-fuzz/artifacts and named, and the exit code is 1. Once it is mended, or told, it
-# moves to found/TARGET, where ctest replays it. For each target one line: CPU seconds, executions, what they cover (edges,
-# and the features libFuzzer counts), inputs kept, the slowest input.
+# Inputs begin with seeds/, found/, the scenes of the project and of its tests. Those that increase coverage are kept in
+# build-fuzz/corpus, where the next run continues. An input that crashes, leaks or takes longer than PSCN_FUZZ_TIMEOUT
+# seconds by the clock (100) ends the target: it is put into build-fuzz/artifacts and named, and the exit code is 1.
+# Once it is mended, or reported, it moves to found/TARGET, where ctest replays it. Prints a line for each target: CPU
+# seconds, executions, coverage (edges, and libFuzzer's features), inputs kept, the slowest input.
 set -euo pipefail
 seconds=${1:?seconds of CPU for each target}
 shift
@@ -21,7 +21,7 @@ cmake --preset fuzz >/dev/null
 nice cmake --build --preset fuzz --parallel 1 >/dev/null
 mkdir -p "$build/artifacts" "$build/work"
 
-# Words of the language: the names of the grammar's tokens and of the methods, and what else stands between words.
+# The language's words: the names of the grammar's tokens and of the methods, and what stands between words.
 words=$build/words.dict
 {
   grep -oh '"#\?[a-z][a-z_]*"' "$top/grammar/pscn.y" "$top"/src/algebra/solver*.c "$top"/src/scene/method.c
@@ -40,10 +40,10 @@ numbers=$build/numbers.dict
 printf '"%s"\n' '0 ' '-1 ' '1e-11 ' '1.999 ' '1e308 ' '1e-320 ' '1e-17 ' '.5 ' '\x0a' '\x00\x00\x00\x00\x00\x00\xf0\x3f' \
   '\x00\x00\x00\x00\x00\x00\xf0\x7f' '\x00\x00\x00\x00\x00\x00\xf8\x7f' '\x01\x00\x00\x00\x00\x00\x00\x00' >"$numbers"
 
-# The number behind the last NAME of libFuzzer's log.
+# The number after the last NAME in libFuzzer's log.
 last() { grep -ao "$1 *[0-9]*" "$2" | tail -n 1 | grep -o '[0-9]*$' || echo 0; }
 
-# fuzz TARGET: until its CPU time is spent, which is looked at every two seconds.
+# fuzz TARGET: runs it until its CPU time is spent, checked every two seconds.
 fuzz() {
   local target=$1 corpus=$build/corpus/$1 log=$build/$1.log dictionary=$words length=4096 spent=0 now code=0 process
   local artifacts=$build/artifacts/$1- seeds=("$here/seeds/$1")

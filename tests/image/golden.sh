@@ -2,8 +2,8 @@
 # golden.sh SCENE: renders scenes/SCENE.pscn and compares it with golden/SCENE.png. With PSCN_UPDATE=1 the golden
 # picture is made instead; look at it before committing it.
 #
-# A pixel is the mean of 2 x 2 samples. Rounding may turn a sample that grazes a silhouette or a shadow's edge, on
-# another machine or with another intersector, so a few pixels may differ; no other difference goes beyond one code.
+# A pixel is the mean of 2 x 2 samples. On another machine, or with another intersector, rounding may change a sample
+# that grazes a silhouette or a shadow's edge. So a few pixels may differ; no other difference exceeds one code.
 set -euo pipefail
 EDGE_PERCENT=0.05 # of 19200 pixels: 9
 ONE_CODE=1.5/255

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The same scene with all coordinates multiplied by powers of ten, up to the ends of what a double holds: the same
-# picture, to one code of 8 bits, every answer certain. What no double holds is an error of the scene.
+# The same scene with coordinates times powers of ten, up to the ends of the range of doubles: the same picture, within
+# one code of 8 bits, and every answer certain. A coordinate beyond the range is an error of the scene.
 set -euo pipefail
 ONE_CODE=1.000001/255 # as read back in floats
 SIZE=80x60

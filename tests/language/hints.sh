@@ -1,5 +1,5 @@
 #!/bin/bash
-# Every word that POV-Ray reserves and pscn has not is told as such, in a scene that has nothing else.
+# Every word that POV-Ray reserves and pscn lacks is reported as such, in a scene that contains nothing else.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

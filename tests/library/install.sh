@@ -1,8 +1,8 @@
 #!/bin/bash
-# install.sh BUILD CC CXX [FLAG...]: libpscn as somebody else finds it. Installs it into an empty folder, moves that, and
-# there: exactly the functions of pscn.h are exported; what could print, end the process or load libraries is not asked
-# for; the header compiles as C and C++ without a warning; the examples are built with pkg-config and with find_package,
-# static and shared, and answer as they should.
+# install.sh BUILD CC CXX [FLAG...]: libpscn as others find it. Installs it into an empty folder, and moves that. Checks
+# there that exactly the functions of pscn.h are exported; that nothing which prints, ends the process or loads
+# libraries is used; that the header compiles as C and C++ without a warning; and that the examples, built with
+# pkg-config and with find_package, static and shared, give the right answers.
 set -uo pipefail
 build=$1 cc=$2 cxx=$3
 shift 3
@@ -29,7 +29,7 @@ case $flags in
   *sanitize*) ;; # they bring more along
   *)
     nm -D --undefined-only "$shared" | sed 's/.* [Uw] //; s/@.*//' | sort >wanted
-    # (__assert_fail is in builds for tests only)
+    # (only builds for tests use __assert_fail)
     forbidden=$(grep -x -E '_?_?exit|_Exit|abort|quick_exit|v?f?d?printf|__v?f?printf_chk|f?puts|f?putc|putchar|fwrite|perror|stderr|write|system|fork|exec.*|kill|raise|signal|sigaction|setlocale|dlopen|pthread_create|setrlimit' wanted)
     [ -z "$forbidden" ] || say "libpscn.so asks for" $forbidden
     needed=$(readelf -d "$shared" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | grep -v -E '^lib(c|m)\.so|^ld-linux|^libgcc_s')
@@ -37,7 +37,7 @@ case $flags in
     ;;
 esac
 
-# The header by itself.
+# The header alone.
 printf '#include <pscn.h>\n#include <pscn.h>\nstruct pscn_options options = PSCN_OPTIONS;\n' >header.c
 cp header.c header.cpp
 for standard in c11 c17; do
@@ -47,7 +47,7 @@ for standard in c++11 c++17; do
   "$cxx" -std=$standard -Wall -Wextra -pedantic -Werror -I"$prefix/include" -c header.cpp || say "the header is no $standard"
 done
 
-# The example, by pkg-config.
+# The example, with pkg-config.
 export PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name pscn.pc)")
 export LD_LIBRARY_PATH=$(dirname "$shared")
 warnings="-std=c11 -Wall -Wextra -pedantic -Werror $flags"
@@ -67,7 +67,7 @@ done
 ./shared 5 /nowhere >said 2>errors && say "a scene that is nowhere"
 grep -q "/nowhere: there is no such file" errors || say "nobody says where: $(cat errors)"
 
-# And by find_package.
+# And with find_package.
 mkdir -p consumer && cat >consumer/CMakeLists.txt <<END
 cmake_minimum_required(VERSION 3.13)
 project(consumer C)

@@ -1,5 +1,5 @@
 #!/bin/bash
-# python.sh LIBRARY: the example in Python answers as `pscn render` and plots what it has found.
+# python.sh LIBRARY: the Python example answers as `pscn render` does, and plots its result.
 set -euo pipefail
 for python in python3 /usr/bin/python3 none; do
   "$python" -c 'import numpy' 2>/dev/null && break
@@ -17,7 +17,7 @@ if grep -q 'plotted by [mg]' said; then
   head -c 8 depth.png | grep -q PNG
 fi
 "$python" - "$PSCN_SOURCE_DIR/examples/library" "$scene" <<'END'
-# The same scene through the example's own functions: what pscn trace answers, strides, errors with their place.
+# The same scene through the example's own functions: the answers of pscn trace, strides, errors with their places.
 import os, subprocess, sys
 sys.path.insert(0, sys.argv[1])
 import numpy as np

@@ -1,7 +1,8 @@
 #!/bin/bash
-# paper_counts.sh PROGRAMS: the counts in the committed files of docs/paper are those of the code, times aside: all of the
-# random polynomials, the patch at eps = 1e-6, and nearly those of some pictures. Where this fails, examples/paper.sh makes the page
-# again. The page says what its template says. PROGRAMS is the folder of examples/paper in the build tree; PSCN_SOURCE_DIR the source tree.
+# paper_counts.sh PROGRAMS: the counts in the committed files of docs/paper are those of the code, unlike the times: all
+# of the random polynomials, the patch at eps = 1e-6, and nearly those of some pictures. The page agrees with its
+# template. If this fails, examples/paper.sh makes the page again. PROGRAMS is the folder of examples/paper in the build
+# tree; PSCN_SOURCE_DIR the source tree.
 set -euo pipefail
 export LC_ALL=C
 programs=$1
@@ -10,7 +11,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failed=0
 
-# The columns of a file are those of what a command prints; with a pattern, of the rows that it matches.
+# The columns of a file are those that a command prints; with a pattern, only the rows that match it.
 same() { # FILE COLUMNS PATTERN COMMAND...
   local file=$1 columns=$2 pattern=$3
   shift 3
@@ -24,8 +25,8 @@ same() { # FILE COLUMNS PATTERN COMMAND...
   fi
 }
 
-# The same of a picture's pixels, within 3 % and 5 of them: a root that is nearly lost is so by its last bits, which are
-# the instruction set's and the compiler's.
+# The same for a picture's pixels, within 3 % and 5 of them: whether a root is just lost depends on its last bits, so on
+# the instruction set and the compiler.
 near() { # FILE PATTERN COMMAND...
   local file=$1 pattern=$2
   shift 2
@@ -46,7 +47,7 @@ picture() { # FIGURE SCENE METHOD EPS
     "$3 { form paper start previous max_iterations 500 tolerance $4 }" "$folder/picture"
 }
 
-# The page is that of the template and the files; what is changed by hand is in both.
+# The page is made from the template and the files; changes by hand must be made in both.
 awk -v data=docs/paper -f examples/paper/fill.awk examples/paper/paper.md.in >"$folder/page"
 if ! diff docs/paper.md "$folder/page" >"$folder/diff"; then
   echo "docs/paper.md (<) is not what examples/paper.sh page makes (>)"

@@ -1,7 +1,7 @@
 #!/bin/bash
-# deb.sh BUILD: the package that cpack makes names what it needs, and what is in it works where it is unpacked: the program
-# renders with the module that came with it, from a folder that is not the build tree's, with nothing in the environment
-# (but what the sanitizers want).
+# deb.sh BUILD: the package that cpack makes names its dependencies, and its contents work where they are unpacked: the
+# program renders with its own module, from a folder that is not the build tree's, with an empty environment (except for
+# what the sanitizers need).
 set -euo pipefail
 for program in dpkg-deb dpkg-shlibdeps cpack; do
   command -v "$program" >/dev/null || { echo "skipped: $program is not installed" >&2; exit 77; }
@@ -27,7 +27,7 @@ loaded=$(grep -ho 'calling init: .*pscn_openimageio.so' libs.*)
 "$PSCN" render bent.pscn --size 40x30 -q -o built.png
 "$PSCN" compare bent.png built.png --fail 0 -q
 
-# Nothing stands outside /usr, nothing can be written to by others.
+# Nothing is outside /usr, nothing is writable for others.
 [ -z "$(find root -mindepth 1 -maxdepth 1 ! -name usr)" ]
 [ -z "$(find root -perm /022 ! -type l)" ]
 # The library's links lead to it.

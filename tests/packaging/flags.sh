@@ -1,7 +1,7 @@
 #!/bin/bash
-# flags.sh: library calls know the sizes of arrays; whoever builds pscn may ask for that by flags, and then is not asked twice.
-# What the user says of contracting products and sums is for no source but those that may (src/intersect, plain_newton_kernel).
-# Where nothing is optimized there is no warning of what would be.
+# flags.sh: library calls check the sizes of arrays; if the user's flags ask for that, too, it is not asked for twice.
+# The user's flags for contracting products and sums apply only to sources that may (src/intersect,
+# plain_newton_kernel). An unoptimized build has no warnings about optimization.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -1,7 +1,7 @@
 #!/bin/bash
-# folders.sh: libraries and headers that are installed in folders given whole, beside the prefix: pscn.pc names them as they
-# are, and the program looks for its module there, also where no run paths are asked for, as by distributions. A module of another build is no crash. Of several builds in one tree each
-# has its module where its program looks for it.
+# folders.sh: installs libraries and headers in folders with absolute paths, outside the prefix. pscn.pc names them
+# unchanged, and the program looks for its module there, even if no run paths are wanted, as by distributions. A module
+# of another build is no crash. If one tree holds several builds, each has its module where its program looks for it.
 set -euo pipefail
 command -v pkg-config >/dev/null || { echo "skipped: pkg-config is not installed" >&2; exit 77; }
 folder=$(mktemp -d)

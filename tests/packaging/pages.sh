@@ -1,6 +1,6 @@
 #!/bin/bash
-# pages.sh BUILD: what is installed for man, shells and editors knows every command, option and word that the program
-# knows, and is well-formed for its readers, those of them that are here.
+# pages.sh BUILD: what is installed for man, shells and editors has every command, option and word that the program has,
+# and is well-formed for its readers, as far as these are installed.
 set -uo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -10,12 +10,12 @@ failed=0
 say() { echo "$*"; failed=1; }
 have() { command -v "$1" >/dev/null || { echo "$1 is not installed: what it reads is not looked at" >&2; false; }; }
 
-# The words behind which TEXT of `pscn help` lists commands, and options of a command.
+# The words of `pscn help` before lists of commands, and of a command's options.
 commands=$("$PSCN" help | sed -n 's/^  \([a-z]\{1,\}\) .*/\1/p')
 options_of() { "$PSCN" help "$1" | sed -n 's/^  \(-., \|    \)\(--[a-z-]*\).*/\2/p' | sort; }
 [ "$(wc -w <<<"$commands")" -ge 8 ] || say "pscn help lists only: $commands"
 
-# Manual pages, each option in them.
+# Manual pages, with every option.
 for command in $commands; do
   page=$share/man/man1/pscn-$command.1
   [ -s "$page" ] || { say "there is no page of $command"; continue; }
@@ -33,7 +33,7 @@ if have groff; then
   grep -q "coverage *share of the samples" <<<"$text" || say "the list of channels is not shown as it is"
 fi
 
-# bash: what it offers behind a line is what the program takes.
+# bash: the program takes what is offered after a line.
 . "$share/bash-completion/completions/pscn"
 offer() { COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _pscn; printf '%s\n' "${COMPREPLY[@]}" | sort; }
 [ "$(offer pscn '' | grep -c .)" -ge "$(wc -w <<<"$commands")" ] || say "bash is not offered all commands"
@@ -58,14 +58,14 @@ fi
 if have zsh; then
   zsh -n "$share/zsh/vendor-completions/_pscn" || say "zsh does not read its completions"
   for command in $commands; do
-    # What it hands to _arguments, as words.
+    # Its arguments for _arguments, as words.
     told=$(zsh -fc "_arguments() { print -rl -- \"\$@\"; }; words=(pscn $command '') CURRENT=3
       _describe() { :; }; . $share/zsh/vendor-completions/_pscn" | grep -o -e '^\(([^)]*)\)\?--[a-z-]*' | sed 's/.*)//' | sort)
     diff <(echo "$told") <(options_of "$command") || say "zsh is offered other options of $command"
   done
 fi
 
-# Editors: words of each kind at their places of a scene.
+# Editors: words of each kind at their places in a scene.
 cat >"$folder/words.pscn" <<'END'
 camera { location 1.5 } // a
 sphere { x }

@@ -1,6 +1,6 @@
 #!/bin/bash
-# readme.sh: the scene at the top of README.md has the eight lines it says, is read without a word, and is seen; POV-Ray
-# reads it too, where it is installed. The files and headings that README.md and docs/ lead to are there.
+# readme.sh: the scene at the top of README.md has the eight lines that it claims, is read without a message, and is
+# visible; POV-Ray, if installed, reads it, too. The files and headings that README.md and docs/ link to exist.
 set -uo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -20,7 +20,7 @@ if command -v povray >/dev/null; then
   HOME=$folder povray +Ibowl.pscn +Opov.png +W40 +H30 -D >log 2>&1 || { tail -5 log; say "POV-Ray does not read it"; }
 fi
 
-# headings FILE: what a link may name behind "#", a line each.
+# headings FILE: the names that a link may have after "#", one a line.
 headings() { sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'; }
 
 for page in README.md $(cd "$PSCN_SOURCE_DIR" && echo docs/*.md); do

@@ -1,5 +1,5 @@
-# How the scripts beside this begin, which are given the PROGRAMs that they need: . begin.sh PROGRAM...
-# They are skipped where one is not installed, and work in a folder of their own, where POV-Ray finds its home.
+# The beginning of the scripts here: . begin.sh PROGRAM...
+# Skips the test if one of the PROGRAMs is not installed. Makes a folder for it, which is also POV-Ray's home.
 set -euo pipefail
 for program; do
   command -v "$program" >/dev/null || { echo "skipped: $program is not installed" >&2; exit 77; }

@@ -1,7 +1,8 @@
 #!/bin/bash
-# The peers of `pscn chart`: each point of a peer has a time, and finer meshes are nearer the surface. The error of a
-# mesh falls with the square of its sides, so from one of the quick chart's meshes to the next, 4 or 8 times as fine, by
-# 16 at least; LEAST_GAIN leaves room for the few rays of a small chart. Which peers are there is said.
+# The peers of `pscn chart`: each point of a peer has a time, and finer meshes are nearer the surface. A mesh's error
+# falls with the square of its number of sides, so from one of the quick chart's meshes to the next, 4 or 8 times as
+# fine, at least by a factor of 16; LEAST_GAIN leaves room for the few rays of a small chart. Prints which peers are
+# there.
 set -euo pipefail
 export LC_ALL=C
 LEAST_GAIN=5
@@ -16,14 +17,14 @@ grep -q 'Embree is left out: there is no' "$folder/said" || peers+=(embree)
 [ ${#peers[@]} -gt 0 ] || { echo "skipped: neither Embree's module nor povray is there" >&2; exit 77; }
 
 failed=0
-# The figure, where gnuplot drew one: the default is labelled, and symbols are named to a pointer over them.
+# The figure, if gnuplot drew one: the default is labelled, and pointing at a symbol shows its name.
 if [ -e "$folder/chart/chart.svg" ]; then
   for text in '>default<' '<title>bernstein: [0-9.]* ns, error [0-9.e-]*</title>' '>7</tspan>' '</svg>'; do
     grep -q "$text" "$folder/chart/chart.svg" || { echo "the figure has no $text"; failed=1; }
   done
 fi
 for peer in "${peers[@]}"; do
-  # Of Embree the points one by one: the coherent ones have the same answers.
+  # Embree's points one by one: the coherent ones have the same answers.
   awk -v peer="$peer" -v gain="$LEAST_GAIN" '
     NR == 1 { n = split($0, column, ","); for (k = 1; k <= n; k++) at[column[k]] = k; next }
     {

@@ -1,7 +1,7 @@
 #!/bin/bash
-# `pscn check` against the installed POV-Ray: what it leaves behind, its exit codes, messages and limits, that POV-Ray
-# comes nearer with every step, and that no scene does harm by it. check.sh answers|limits|names|harm: a part of that,
-# for POV-Ray sleeps half a second each time it is run.
+# `pscn check` against the installed POV-Ray: the files it leaves, its exit codes, messages and limits; that POV-Ray
+# comes nearer with every step; that no scene can do harm through it. check.sh answers|limits|names|harm: a part of
+# that, since POV-Ray sleeps half a second in each run.
 set -euo pipefail
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
@@ -21,8 +21,8 @@ expect() {
   [ "$code" -eq "$wanted" ] || { fail "exit code $code instead of $wanted: $*"; cat err; }
 }
 
-# Unguarded solver statements, in the scene and in what it includes; words in comments and strings; a name to which POV-Ray
-# adds .inc; a branch for it alone that includes a file of the scene's folder and one of POV-Ray's own.
+# Unguarded solver statements, in the scene and in an include file; words in comments and strings; a name to which
+# POV-Ray adds .inc; a branch only for POV-Ray that includes a file of the scene's folder and one of POV-Ray's own.
 cat >"$scene" <<'END'
 #version 3.7; // solver newton
 global_settings { assumed_gamma 1 ambient_light rgb 0.1 solver aberth { start previous } }
@@ -64,16 +64,16 @@ answers() {
     [ -s "one-check/$name" ] || fail "there is no $name"
   done
   grep -q '^pscn: ' err && fail "errors were told"
-  # Each step is nearer than the one before, in the pictures and in the hits; u_steps 2 is the scene as it is written.
+  # Each step is nearer than the one before, in the pictures and in the hits. u_steps 2 is the scene as written.
   awk '$1 == "u_steps" && NF == 12 { if (steps++ && ($4 >= over || $7 <= psnr)) bad = 1; over = $4; psnr = $7 }
        $1 == "u_steps" && NF == 9 { if (rays++ && $7 >= median) bad = 1; median = $7 }
        END { exit bad || steps != 4 || rays != 4 }' out || { fail "POV-Ray does not come nearer:"; cat out; }
   cmp -s one-check/povray.png one-check/povray-2.png || fail "the scene and the same steps give two pictures"
-  # The scene's own text gives that picture too: without solver statements, with the includes of the branch for POV-Ray.
+  # The scene's own text gives that picture, too: without solver statements, with the includes of POV-Ray's branch.
   expect 0 "$PSCN" check "$scene" --size 120x90 --steps 0 --grid 0 -o own \
     --failpercent 100 --failpsnr 0 --failmask 100 --own-text
   cmp -s own/povray.png one-check/povray.png || fail "the scene's own text gives another picture"
-  # It finds what is declared and included as the scene does here.
+  # It finds declared names and included files as the scene does.
   given=(--declare Beside=0.125 -I "scenes and more/beside" --size 24x18 --steps 0 --grid 0
     --failpercent 100 --failpsnr 0 --failmask 100)
   expect 0 "$PSCN" check "$scene" "${given[@]}" -o dumped
@@ -100,14 +100,14 @@ limits() {
     [ "$(wc -l <err)" -eq 1 ] || { fail "not one line is told of $limit:"; cat err; }
   done
 
-  # Where one file cannot be written, what an earlier check left stays, all of it, and nothing else.
+  # If one file cannot be written, all results of an earlier check stay, and nothing else.
   local sum
   rm limits/check.html && mkdir limits/check.html
   sum=$(cksum limits/*.png)
   expect 4 "$PSCN" check "$scene" "${coarse[@]}" --own-text
   [ "$sum" = "$(cksum limits/*.png)" ] && [ "$(ls -A limits | wc -l)" -eq 5 ] || fail "an earlier check is lost"
 
-  # POV-Ray's own word where it refuses, and options passed on.
+  # POV-Ray's own message if it refuses, and options passed on.
   expect 3 "$PSCN" check "$scene" --size 8x6 -o refused --povray-option +Knonsense
   grep -q 'povray: .*command-line option' err || { fail "POV-Ray's message is not shown"; cat err; }
   sed 's/#declare Shade = Red;/#error "not with POV-Ray"/' "$scene" >"scenes and more/two.pscn"
@@ -121,8 +121,9 @@ limits() {
 }
 
 names() {
-  # What is the same is told to be the same, and what nobody hits has no distance; a name that needs care in a shell, in
-  # HTML and in a path of POV-Ray's; a scene that POV-Ray reads as one of an older version, with other colours, is told.
+  # Equal pictures are called equal, and where nothing is hit there is no distance. A name that needs quoting in a
+  # shell, in HTML and in POV-Ray's paths. A scene that POV-Ray reads as an older version's, with other colours, is
+  # reported.
   name="a 'name' & \"<more>\" ä"
   mkdir "$name"
   echo '#include "plain.inc"' >"$name/$name.pscn"
@@ -142,7 +143,7 @@ names() {
   expect 1 "$PSCN" check "$name/$name.pscn" --size 9x9 --steps 0 --own-text # in POV-Ray's older, other colours
   grep -q 'gamma_correction is turned off' err || { fail "POV-Ray's warning is not told"; cat err; }
 
-  # A pipe is read once; a name that is no UTF-8 is shown as one; steps of an earlier check are gone.
+  # A pipe is read once. A name that is not UTF-8 is shown as UTF-8. Steps of an earlier check are removed.
   expect 0 "$PSCN" check <(cat "$name/plain.inc") --size 9x9 --steps 1 --grid 0 -o again
   odd=$(printf 'odd\xff\x1b[31m<b>')
   cp "$name/plain.inc" "$odd.pscn"
@@ -155,8 +156,8 @@ names() {
 }
 
 harm() {
-  # What only POV-Ray would read does nothing at all, and on request no harm: no file anywhere else, no program run, no
-  # escapes for the terminal or HTML in the page, no endless time or memory.
+  # Text that only POV-Ray would read has no effect, and on request does no harm: it writes no file elsewhere, runs no
+  # program, puts no escapes on the terminal or HTML into the page, and takes no endless time or memory.
   sed -e '/#include "only/d; s/#include "colors.inc"/#include "evil.inc"/; s/Shade = Red/Shade = rgb <1, 0, 0>/' \
     "$scene" >"scenes and more/evil.pscn"
   evil() { printf '%s\n' "$@" >"scenes and more/evil.inc"; }
@@ -182,12 +183,12 @@ harm() {
   expect 3 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}" --own-text --timeout 20 --max-memory 300M
   [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
 
-  # A reader of our messages that goes away ends us, and leaves nothing either.
+  # If the reader of our messages goes away, the program ends, and leaves nothing either.
   { "$PSCN" check "$scene" --size 8x6 --steps 0 -o evil 2>&1 || echo "$?" >code; } | sed q >/dev/null
   [ "$(cat code)" = 141 ] || fail "exit code $(cat code) where nobody reads"
   [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
 
-  # An interrupt ends POV-Ray too, and leaves nothing.
+  # An interrupt also ends POV-Ray, and leaves nothing.
   evil '#while (1)' '#end'
   for signal in INT:130 TERM:143 KILL:137; do
     set -m # else the shell has the program ignore SIGINT

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The numbers of `pscn compare` and of OpenImageIO's idiff on the same files. idiff prints six digits, so they agree
-# when they differ by less than RELATIVE of themselves; pixels and counts agree exactly.
+# The numbers of `pscn compare` and of OpenImageIO's idiff on the same files. idiff prints six digits, so numbers agree
+# if they differ by less than RELATIVE of themselves; pixels and counts agree exactly.
 RELATIVE=0.00001
 . "$PSCN_SOURCE_DIR/tests/peers/begin.sh" idiff oiiotool
 scene=$PSCN_SOURCE_DIR/tests/cli/scenes/bent.pscn
@@ -14,7 +14,7 @@ render -o c.exr --bits 32 --channels rgb,u,normal
 render -o d.exr --bits 32 --channels normal,u,rgb --samples 3
 
 failed=0
-# field NAME: what stands after "NAME error =" or the like in idiff's answer.
+# field NAME: the value after "NAME error =" and the like in idiff's answer.
 field() { sed -n "s/^ *$1  *= *\([0-9.e+-]*\).*/\1/p" idiff.out; }
 ours() { sed -n "s/^$1  *\([0-9.e+-]*\).*/\1/p" ours.out; }
 agree() {
@@ -47,7 +47,7 @@ check a.png b.png 1
 check a.exr b.exr 1e-6
 check b.exr a.exr 0.01
 check c.exr d.exr 1e-6
-# Other depths, one channel, negative and large values; channels in another order.
+# Other depths, a single channel, negative and large values; channels in another order.
 oiiotool a.png --ch R -o gray_a.png
 oiiotool b.png --ch R -o gray_b.png
 render -o b16.png --bits 16 --samples 2
@@ -62,7 +62,7 @@ check b.png b16.png 0.001
 check negative.exr plain.exr 0.5
 check large.exr plain.exr 0.5
 check plain.exr b.exr 0.01
-# Formats that are read and never written here; the others are not looked into.
+# Formats that pscn reads and never writes; others are refused.
 oiiotool a.png -o a.tif
 oiiotool a.png -o a.jpg
 oiiotool a.png -o a.ppm
@@ -70,7 +70,7 @@ check a.tif b.png 0.02
 check a.jpg b.png 0.02
 "$PSCN" compare a.ppm a.ppm 2>ours.err && { echo "a.ppm was read"; failed=1; }
 grep -q "'a.ppm': it is no PNG, EXR, TIFF or JPEG" ours.err || { echo "a.ppm: $(cat ours.err)"; failed=1; }
-# verdict CODE A B: pscn's answer; idiff's is named where it is another.
+# verdict CODE A B: pscn's answer. idiff's is named where it differs.
 verdict() {
   local code=0
   "$PSCN" compare "$2" "$3" >ours.out 2>ours.err || code=$?
@@ -93,8 +93,8 @@ grep -q "has 90x60 pixels, '0.1.exr' has 9x7" ours.err || failed=1
 head -c 700 a.png >cut.png
 verdict 4 cut.png a.png # idiff reads on
 verdict 4 nothing.png a.png
-# What is not read is not compared: other pictures in the file, of which idiff only says so, and channels whose names would
-# be cut to one.
+# What is not read is not compared: further pictures in a file, which idiff only mentions, and channels whose names
+# would be cut to one.
 oiiotool 0.1.exr nan.exr --siappend -o two.exr
 oiiotool a.png b.png --siappend -o two.tif
 long=$(printf 'n%.0s' {1..63})
@@ -106,7 +106,7 @@ verdict 0 named.exr named.exr
 oiiotool 0.1.exr --ch 0 --chnames "$long" -o lone.exr
 "$PSCN" compare lone.exr lone.exr --channels "$long" --quiet || { echo "a name of 63 bytes"; failed=1; }
 "$PSCN" compare lone.exr lone.exr --channels "${long}n" --quiet 2>/dev/null && { echo "a name of 64 bytes"; failed=1; }
-# Colours that are stored differ, whatever opacity says (the same to idiff) or black ink.
+# Stored colours differ, whatever opacity (to idiff they are the same) or black ink says.
 for k in 0 1; do
   for format in png tif; do
     oiiotool --pattern constant:color=$k,0,0,0 9x7 4 --attrib oiio:UnassociatedAlpha 1 -d uint8 -o clear$k.$format

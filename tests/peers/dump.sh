@@ -1,7 +1,7 @@
 #!/bin/bash
-# POV-Ray's picture of every scene and of its dump: the same but for what rounding does to an edge. A transform is
-# applied to the points by pscn in the dump, by POV-Ray in the scene, so a point may differ in its last digit, and with
-# it which triangle a ray through an edge meets: such pixels are at most PERCENT of all, in each scene.
+# POV-Ray's pictures of every scene and of its dump are the same, except for rounding at edges. A transform is applied
+# to the points by pscn in the dump, by POV-Ray in the scene. So a point may differ in its last digit, and a ray through
+# an edge may meet another triangle. Such pixels are at most PERCENT of all, in each scene.
 PERCENT=0.1
 LIMIT=1/255
 . "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Patches nobody here wrote, from Debian's povray-examples: the teapot's file included as it is, in a scene with its
-# names declared, and the patch of the Bezier example, in a plain texture. Both programs render them, and agree within
-# `pscn check`'s own limits when POV-Ray cuts the patches finely.
+# Patches made by others, from Debian's povray-examples: the teapot's file, included unchanged in a scene that declares
+# its names; and the patch of the Bezier example, in a plain texture. Both programs render them, and agree within the
+# limits of `pscn check` if POV-Ray cuts the patches finely.
 . "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
 find_example() { # FILE: its place, wherever the package puts it, packed or not
   { dpkg -L povray-examples 2>/dev/null || find /usr/share/doc/povray* -type f 2>/dev/null; } |
@@ -24,7 +24,7 @@ light_source { <10, 40, -30> color rgb 1 }
 background { color rgb <0.1, 0.1, 0.3> }
 END
 
-# From `bicubic_patch` to the brace that closes it, with its checkered texture, which is POV-Ray's alone, in one colour.
+# From `bicubic_patch` to the brace that closes it. Its checkered texture, which only POV-Ray has, becomes one colour.
 zcat -f "$bezier" | tr -d '\r' | awk '
   /bicubic_patch/ { inside = 1 }
   inside { for (k = 1; k <= length($0); k++) { c = substr($0, k, 1); depth += (c == "{") - (c == "}") }

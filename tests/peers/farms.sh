@@ -1,6 +1,6 @@
 #!/bin/bash
-# farms.sh parallel|slurm: the farms of examples/ make the picture of a single run, to the bit. Slurm is a cluster of one node,
-# which is started in a folder of its own, with a key of its own, and ended afterwards.
+# farms.sh parallel|slurm: the farms of examples/ make the picture of a single run, to the bit. Slurm is a cluster of
+# one node, started in a folder and with a key of its own, and ended afterwards.
 set -euo pipefail
 farm=$1
 folder=$(mktemp -d)
@@ -78,7 +78,7 @@ mkdir 'a folder'
 "$PSCN" render "$scene" --size 160x120 --quiet -o one.png
 "$PSCN_SOURCE_DIR/examples/farm_$farm.sh" 5 'a folder/farm.png' "$scene" --size 160x120
 "$PSCN" compare one.png 'a folder/farm.png' --fail 0 --quiet
-# A second run has but the missing pieces to do.
+# A second run only does the missing pieces.
 mkdir 'a folder/again.exr.pieces'
 for k in 1 3; do
   "$PSCN" render "$scene" --size 160x120 --tile $k/3 -o "a folder/again.exr.pieces/$k.exr" --quiet
@@ -88,7 +88,7 @@ done
 "$PSCN" render "$scene" --size 160x120 --quiet -o half.exr
 "$PSCN" compare half.exr 'a folder/again.exr' --fail 0 --quiet
 [ "$(ls 'a folder')" = "$(printf 'again.exr\nfarm.png')" ] || { ls -R 'a folder'; exit 1; }
-# What cannot be rendered is no picture.
+# A scene that cannot be rendered gives no picture.
 if "$PSCN_SOURCE_DIR/examples/farm_$farm.sh" 2 no.png "$folder/none.pscn" >/dev/null 2>&1; then exit 1; fi
 [ ! -e no.png ]
 echo "$farm: the picture of a single run"

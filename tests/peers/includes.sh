@@ -1,6 +1,6 @@
 #!/bin/bash
-# POV-Ray's own include files, where they are installed, each in a scene of one patch: they are read and change nothing, or put
-# things into the scene and are refused, as docs/povray.md lists them. What pscn has not is told where it is used.
+# POV-Ray's own include files, if installed, each in a scene of one patch. They are read and change nothing, or put
+# things into the scene and are refused, as docs/povray.md lists them. What pscn lacks is reported where it is used.
 set -euo pipefail
 include=/usr/share/povray-3.7/include
 [ -d $include ] || { echo "skipped: $include is not there" >&2; exit 77; }
@@ -42,7 +42,7 @@ documented() { # BEGINNING NAMES...
 documented read "${read[@]}"
 documented 'refused, for they put things into the scene' "${refused[@]}"
 
-# Used, each says what it is made of and where that stands.
+# If used, each says what it is made of, and where that is.
 used() { # FILE LINE WORD
   scene "#include \"$1.inc\"" "$2" >used.pscn
   "$PSCN" dump used.pscn >out 2>said && fail "$2: exit 0"

@@ -1,7 +1,7 @@
 #!/bin/bash
-# The kinds of POV-Ray files that hold patches, and what happens to each: the table of docs/povray.md says what is found here.
-# tests/peers/kinds has small files of the forms that exporters write; POV-Ray's own files are read where they are installed. What
-# is read gives POV-Ray's picture, as nearly as its triangles can.
+# The kinds of POV-Ray files that hold patches, and how each is treated: the table of docs/povray.md. tests/peers/kinds
+# has small files of the forms that exporters write; POV-Ray's own files are read if installed. A file that is read
+# gives POV-Ray's picture, as nearly as its triangles can.
 #
 #   kinds.sh            compares with docs/povray.md
 #   kinds.sh --print    prints the first two columns of the table
@@ -14,7 +14,7 @@ cd "$folder"
 export LC_ALL=C HOME=$folder
 failed=0
 
-# outcome FILE: "read, N patches", or "refused: " and the first words that are the reason.
+# outcome FILE: "read, N patches", or "refused: " and the first words of the reason.
 outcome() {
   if "$PSCN" render "$1" -o x.png --size 1x1 --quiet --stats x.json 2>said; then
     sed -n 's/.*"patches": \([0-9]*\).*/read, \1/p' x.json

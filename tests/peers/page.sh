@@ -1,20 +1,20 @@
 #!/bin/bash
-# The page of `pscn check` in headless Chromium: nothing on its console, nothing asked of a network, and a screenshot
-# that shows both pictures where they stand on the page.
+# The page of `pscn check` in headless Chromium: its console is empty, it asks no network for anything, and a screenshot
+# shows both pictures at their places.
 . "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
 browser=$(command -v chromium || command -v chromium-browser || true)
 [ -n "$browser" ] || { echo "skipped: chromium is not installed" >&2; exit 77; }
 failed=0
 fail() { echo "$*"; failed=1; }
 
-# 590 pixels wide: so wide the page shows the pictures, one file pixel each, whatever the browser does to larger ones.
+# 590 pixels wide: at this width the page shows the pictures pixel for pixel, whatever the browser does to larger ones.
 WIDTH=590 HEIGHT=300
 "$PSCN" check "$PSCN_SOURCE_DIR/tests/cli/scenes/bent.pscn" -o out --size ${WIDTH}x$HEIGHT --steps 2 \
   --failpercent 100 --failpsnr 0 --failmask 100 --quiet
 grep -Eq '(src|href)="(https?:|//|file:)|url\(|@import' out/check.html &&
   fail "the page asks for something beside itself"
 
-# browse FILE SCREENSHOT: what the page says on the console is on stderr, as INFO:CONSOLE.
+# browse FILE SCREENSHOT: the console's messages come on stderr, as INFO:CONSOLE.
 browse() {
   timeout 100 "$browser" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --hide-scrollbars \
     --force-device-scale-factor=1 --force-color-profile=srgb --enable-logging=stderr --user-data-dir="$folder/profile" \
@@ -23,12 +23,12 @@ browse() {
 }
 browse out/check.html shot.png
 ! grep 'CONSOLE' log || fail "the page has something to say on the console"
-# The watch works: a page that has an error is noticed.
+# The check works: a page with an error is noticed.
 sed 's|</body>|<script>undefined_name()</script></body>|' out/check.html >broken.html
 browse broken.html broken.png
 grep -q 'CONSOLE' log || fail "an error of a page would not be noticed"
 
-# Where the pictures are: the page tells their places itself.
+# Where the pictures are, as the page says itself.
 sed 's|</body>|<script>document.title = [...document.images].slice(0, 2).map(i => {\
   const r = i.getBoundingClientRect();\
   return [r.left, r.top, r.width, r.height].map(Math.round).join(",") }).join(" ")</script></body>|' \

@@ -1,7 +1,7 @@
 #!/bin/bash
 # One small scene for each keyword of finishes, lights, cameras, transforms and colours, by both programs. All patches
-# are flat, so that POV-Ray's triangles are the exact surface: no pixel may differ by more than 1/255 but for what
-# rounding does to an edge, MOST pixels of a picture.
+# are flat, so that POV-Ray's triangles are the exact surface. No pixel may differ by more than 1/255, except for
+# rounding at edges, MOST pixels of a picture.
 JOBS=16 # POV-Ray mostly waits for itself
 MOST=2
 . "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
@@ -9,7 +9,8 @@ MOST=2
 KEY='light_source { <-3, 5, -4>, rgb <1, 0.95, 0.9> }'
 CAMERA='camera { location <0.4, 2.2, -5> look_at <0.1, 0.2, 0> angle 42 }'
 count=0
-# scene NAME: writes the scene of what is set, then sets all back. A floor, and above it a leaning square with a shadow.
+# scene NAME: writes the scene of the current settings, then resets them. A floor, and above it a leaning square with a
+# shadow.
 begin() {
   camera=$CAMERA lights=$KEY sky='background { rgb <0.2, 0.3, 0.5> }' settings='' before='' size=64x48
   finish='' pigment='rgb <0.8, 0.5, 0.3>' object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> }'
@@ -223,7 +224,7 @@ before='#declare Title = "a \"; background { rgb <1, 0, 0> } // \" b";
 #ifdef (Nothing) "abc\"#end" #declare Title = 1; #end'
 scene 'strings'
 
-# judge FILE: what is wrong with a scene.
+# judge FILE: prints what is wrong with a scene.
 cat >judge.sh <<'END'
 file=${1%.pscn}
 "$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --own-text --fail 1/255 --failpercent 0 \

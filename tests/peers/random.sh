@@ -1,7 +1,7 @@
 #!/bin/bash
-# Scenes nobody has thought of: finishes, lights, backgrounds, cameras, transforms, textures and colours at random, by
-# both programs. All patches are flat, so that POV-Ray's triangles are the exact surface: no pixel may differ by more
-# than 1/255 but for what rounding does to an edge, MOST pixels of a picture. PSCN_SEED makes other scenes.
+# Scenes at random: finishes, lights, backgrounds, cameras, transforms, textures and colours, by both programs. All
+# patches are flat, so that POV-Ray's triangles are the exact surface. No pixel may differ by more than 1/255, except
+# for rounding at edges, MOST pixels of a picture. PSCN_SEED makes other scenes.
 JOBS=16 # POV-Ray mostly waits for itself
 MOST=3
 SCENES=24
@@ -65,8 +65,8 @@ function transforms(most,  text, k) {
   }
   return text
 }
-# The turn and the shift of its own keep objects out of each other's planes, where it would be for rounding to say who
-# is seen.
+# Each object's own rotation and translation keep it out of the others' planes, where rounding would decide which is
+# seen.
 function object(depth,  text, k) {
   if (depth == 2 || chance(0.7))
     return "object { " (chance(0.7) ? "Square" : "Two") transforms(2) " rotate " vector(-90, 90) " translate " \

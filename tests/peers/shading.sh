@@ -1,6 +1,6 @@
 #!/bin/bash
-# The colours of a flat patch that fills the picture, by pscn and by POV-Ray, for each keyword of a finish alone and
-# together, and for lights before, behind, and without shadow. Both write 16 bits; they may differ by LIMIT, which
+# The colours of a flat patch that fills the picture, by pscn and by POV-Ray: for each keyword of a finish alone and all
+# together, and for lights in front, behind, and without shadow. Both write 16 bits. They may differ by LIMIT, which
 # leaves room for each program's rounding to 1/65535 and for POV-Ray's single-precision colours.
 LIMIT=0.05/255
 . "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The example that turns the teapot: a picture a frame, the first one the scene's own, the second another; the film where ffmpeg
-# is installed.
+# The example that turns the teapot makes a picture a frame: the first is the scene's own, the second differs; and a
+# film if ffmpeg is installed.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

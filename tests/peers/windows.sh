@@ -1,6 +1,6 @@
 #!/bin/bash
-# EXR crops stand where they belong: OpenImageIO's own tool puts two of them together, and it is the whole picture; each has the
-# picture for its display window.
+# EXR crops are at their places: OpenImageIO's own tool combines two of them into the whole picture, and each has the
+# picture as its display window.
 . "$PSCN_SOURCE_DIR/tests/peers/begin.sh" oiiotool
 scene="$PSCN_SOURCE_DIR/scenes/teapot.pscn --size 64x48 --quiet"
 "$PSCN" render $scene -o whole.exr
@@ -12,7 +12,7 @@ oiiotool right.exr left.exr --croptofull --paste +0+0 -o pasted.exr
 "$PSCN" compare whole.exr pasted.exr --fail 0 --quiet
 oiiotool left.exr --croptofull right.exr --croptofull --add -o added.exr
 "$PSCN" compare whole.exr added.exr --fail 0 --quiet
-# The whole has no window that would be written twice, and a PNG none at all.
+# The whole picture has no window that would be written twice, and a PNG none at all.
 oiiotool --info -v whole.exr | grep -q 'full/display' && exit 1
 "$PSCN" render $scene --crop 30,0,34,48 -o right.png
 oiiotool --info -v right.png | grep -q '34 x   48' && ! oiiotool --info -v right.png | grep -q 'full/display'
