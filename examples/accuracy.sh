@@ -23,8 +23,8 @@ if [ -z "${PSCN_CHARTS:-}" ]; then
   done
 fi
 
-# For awk: read() makes of a line of chart.csv the array f, by the names of the columns. The name is the only field in
-# quotes, and has commas.
+# For awk: read() puts a line of chart.csv into the array f, by the names of the columns. Only the name is in quotes,
+# and may contain commas.
 READ='
   function number(x, digits) { return x == "" ? "" : sprintf("%." digits "g", x) }
   function bad() { return f["lost"] + f["invented"] + f["wrong"] }
@@ -42,7 +42,7 @@ READ='
       number(f["t_median"], 2), number(f["t_99"], 2), number(f["t_max"], 2), f["lost"], f["invented"], f["wrong"]
   }'
 
-# rows FILE CONDITION: the points that awk's CONDITION chooses.
+# rows FILE CONDITION: the points that fulfil awk's CONDITION.
 rows() { awk "$READ"'read() && ('"$2"') { row() }' "$1"; }
 
 # best FILE FAMILY: its fastest point without a wrong answer.
@@ -55,7 +55,8 @@ best() {
   rows "$1" "NR == $(cat "$folder/at")"
 }
 
-# span SCENE CONDITION EXPRESSION [DIGITS]: what awk's EXPRESSION is of the points that CONDITION chooses: "A", or "A to B".
+# span SCENE CONDITION EXPRESSION [DIGITS]: the values of awk's EXPRESSION over the points that fulfil CONDITION: "A",
+# or "A to B".
 span() {
   awk "$READ"'
     function value() { return '"$3"' }
@@ -67,8 +68,8 @@ span() {
     }' "$charts/$1/chart.csv"
 }
 
-# faster SCENE POLISH: how many times as long each complex solver takes in Bernstein form as in the power basis, warm, on the
-# leaves of `split auto`: the median over the tolerances of each.
+# faster SCENE POLISH: the time of each complex solver in Bernstein form over that in the power basis, warm, on the
+# leaves of `split auto`: for each the median over the tolerances.
 faster() {
   awk "$READ"'
     read() && f["start"] == "previous" && f["polish"] == "'"$2"'" && f["family"] != "paper" && f["split"] != 1 {
@@ -87,8 +88,8 @@ faster() {
     }' "$charts/$1/chart.csv"
 }
 
-# What basis, polish and tolerance buy: a line a solver and tolerance, start previous, `split auto`; the paper's form
-# last.
+# What basis, polish and tolerance gain: a line for each solver and tolerance, start previous, `split auto`; the paper's
+# form last.
 ways() {
   awk "$READ"'
     function cell() {

@@ -1,11 +1,11 @@
 #!/bin/bash
-# The numbers that pscn is asked for, each a ratio or a difference within this run, the contestants taking turns; prints
-# a table of name, number, and what is asked; then every scene beside Embree, camera, shadow and scattered rays.
+# The numbers required of pscn, each a ratio or a difference within this run, with the contestants taking turns. Prints
+# a table of name, number and requirement; then every scene beside Embree, with camera, shadow and scattered rays.
 #
 #   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page: the table goes into docs/performance.md
 #
-# The teapot at 800x600, one thread, default solver unless it says otherwise; some fifteen minutes where it is alone. Times
-# are CPU times, as others may use the machine too; still, an idle one gives steadier numbers.
+# The teapot at 800x600, one thread, default solver, unless stated otherwise; some fifteen minutes on an idle machine.
+# Times are CPU times, since others may use the machine too; still, an idle one gives steadier numbers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -29,7 +29,7 @@ mkdir "$folder/home"
 
 say() { echo "$*" >&2; }
 
-# numbers FILE COLUMN: its median, smallest and largest.
+# numbers FILE COLUMN: its median, smallest and largest number.
 numbers() {
   awk -v c="$2" '{ print $c }' "$1" | sort -g | awk '{ v[NR] = $1 }
     END { printf "%.17g %.17g %.17g\n", NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2, v[1], v[NR] }'
@@ -44,13 +44,13 @@ printf '| | measured | asked | |\n|---|---|---|---|\n' >"$folder/table"
 
 # ---- rays in one process ----
 
-# contest KIND SCENE SIDE SOLVER...: into the file "rays"
+# contest KIND SCENE SIDE SOLVER...: writes the file "rays"
 contest() { build/examples/benchmark/beside_embree "$1" "$2" "$runs" "${@:3}" >"$folder/rays"; }
 # cell NAME COLUMN
 cell() { awk -F '\t' -v name="$1" -v c="$2" '$1 == name { print $c }' "$folder/rays"; }
 ns() { echo "$(fixed "$(cell "$1" 2)" 0) ns ($(fixed "$(cell "$1" 3)" 0) - $(fixed "$(cell "$1" 4)" 0))"; }
 
-# The scenes, how many squares of triangles a side Embree is given for a patch, and where the file is.
+# For each scene, the squares of triangles that a patch has on a side for Embree, and the file.
 scenes() {
   for name in teapot wild bent dome waves degrees inside nested; do echo "$name 64 scenes/$name.pscn"; done
   examples/generate.sh hair 10000 >"$folder/hair.pscn"
@@ -90,7 +90,7 @@ every_scene() {
     END { printf "| **worst** | | **%.2f** | **%.2f** | **%.2f** |\n", worst[3], worst[4], worst[5] }'
 }
 
-# preparing: a table of what is done before the first ray, by the camera rays' runs.
+# preparing: a table of the work before the first ray, from the runs of camera rays.
 preparing() {
   printf '| scene | pscn, s | Embree, s | of its best quality, s | pictures until Embree is done first |\n|---|---|---|---|---|\n'
   awk -v rays=$((${SIZE%x*} * ${SIZE#*x})) '{
@@ -99,7 +99,7 @@ preparing() {
     printf "| %s | %.4f | %.4f | %.4f | %s |\n", $1, $2, $3, $4, pictures }' "$folder/preparing"
 }
 
-# every_scene_avx2: a table of all scenes and kinds of rays, both with AVX2 and no more.
+# every_scene_avx2: a table of all scenes and kinds of rays, with both programs limited to AVX2.
 every_scene_avx2() {
   printf '| scene | camera rays, to Embree one by one | to its packets | shadow rays, one by one | to its packets | scattered rays, one by one | to its packets |\n'
   printf '|---|---|---|---|---|---|---|\n'
@@ -157,12 +157,12 @@ done
 
 # ---- whole processes ----
 
-# took WHAT COMMAND...: its seconds, WHAT being "cpu", of user and system, or "clock".
+# took WHAT COMMAND...: its seconds; WHAT is "cpu", user and system, or "clock".
 took() {
   /usr/bin/time -f '%U %S %e' -o "$folder/time" "${@:2}" >"$folder/log" 2>&1 || { cat "$folder/log" >&2; return 1; }
   awk -v what="$1" '{ print what == "cpu" ? $1 + $2 : $3 }' "$folder/time"
 }
-# pscn_took WHAT THREADS, povray_took WHAT THREADS: of the teapot, from the shell to the file.
+# pscn_took WHAT THREADS, povray_took WHAT THREADS: the time for the teapot, from the shell to the file.
 pscn_took() { took "$1" "$pscn" render "$SCENE" --size "$SIZE" --threads "$2" --quiet -o "$folder/pscn.png"; }
 povray_took() {
   (cd "$(dirname "$SCENE")" && HOME=$folder/home took "$1" povray "+I$(basename "$SCENE")" "+O$folder/povray.png" \
@@ -185,13 +185,13 @@ else
   say "POV-Ray is not installed: what is measured beside it is left out"
 fi
 
-# megabytes SCENE: the peak of the process's memory.
+# megabytes SCENE: the process's peak memory.
 megabytes() {
   /usr/bin/time -f %M -o "$folder/time" "$pscn" render "$1" --size "$SIZE" --threads 1 --quiet \
     --stats "$folder/stats.json" -o "$folder/pscn.png"
   awk '{ print $1 / 1024 }' "$folder/time"
 }
-# of GROUP NAME...: numbers of its statistics.
+# of GROUP NAME...: numbers from its statistics.
 of() { members "$folder/stats.json" "$@"; }
 
 say "memory, and $TEAPOTS teapots"

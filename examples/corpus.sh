@@ -13,7 +13,8 @@ table=$(mktemp)
 trap 'rm -f "$table"' EXIT
 "$build/tests/corpus/corpus_table" >"$table"
 
-# A row a column of the table: median time, correct digits (16 at most: the answers are doubles), what is not there.
+# A row for each column of the table: median time, correct digits (at most 16, since answers are doubles), what is
+# missing.
 summary() {
   awk -F' *[|] *' '
     NR == 1 { for (k = 4; k < NF; k++) name[k] = $k; last = NF - 1 }

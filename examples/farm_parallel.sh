@@ -3,7 +3,8 @@
 #
 #   examples/farm_parallel.sh PIECES FILE SCENE [OPTION...]      options of pscn render
 #
-# Can be run again: pieces that are there stay, one that was interrupted goes on. PSCN and JOBS (1 for each processor) choose.
+# It can be run again: finished pieces stay, an interrupted one is continued. PSCN and JOBS (one for each processor) may
+# be set.
 set -euo pipefail
 pieces=${1:?how many pieces?} file=${2:?which picture?}
 shift 2

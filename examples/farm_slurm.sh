@@ -1,11 +1,11 @@
 #!/bin/bash
-# A picture in pieces by Slurm: an array job of one task a piece, and the merging once all are there.
+# A picture in pieces by Slurm: an array job with one task for each piece, and the merging once all are there.
 #
 #   examples/farm_slurm.sh PIECES FILE SCENE [OPTION...]      options of pscn render
 #
-# Waits for the picture. What sbatch asks for is in SBATCH_OPTIONS ("--time=1:00:00 --cpus-per-task=8"); PSCN chooses the program. The
-# folder must be one that the nodes share. A task that is requeued, or ended by its time, goes on where it was: SIGTERM comes before
-# SIGKILL, and what is done is kept every half minute anyway. Pieces that failed are submitted again, twice at most.
+# Waits for the picture. SBATCH_OPTIONS is passed to sbatch ("--time=1:00:00 --cpus-per-task=8"); PSCN is the program.
+# The nodes must share the folder. A task that is requeued, or ended at its time limit, is continued: SIGTERM comes
+# before SIGKILL, and finished tiles are saved every half minute. Pieces that failed are submitted again, at most twice.
 set -euo pipefail
 pieces=${1:?how many pieces?} file=${2:?which picture?}
 shift 2
@@ -20,7 +20,7 @@ exec $(printf '%q ' "$pscn" render "$@") --tile "\$SLURM_ARRAY_TASK_ID/$pieces" 
   --threads "\${SLURM_CPUS_PER_TASK:-1}" --quiet --resume
 END
 
-# Either the picture, or the numbers of the pieces to render.
+# Makes the picture, or prints the numbers of the pieces to render.
 merged() {
   missing=1-$pieces
   compgen -G "$folder/*.exr" >/dev/null || return 1

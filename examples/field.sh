@@ -1,11 +1,11 @@
 #!/bin/bash
-# Writes a scene to standard output: a field of N teapots that are all `object { Teapot }` of one #declare, 32 patches
+# Writes a scene to standard output: a field of N teapots, all of them `object { Teapot }` of one #declare, 32 patches
 # each.
 #
 #   examples/field.sh N
 #
-# The field fills the picture as far as a field of that shape can, and the light stands at the camera: every hit of a
-# camera ray sends exactly one shadow ray, so that counting those counts hits.
+# The field fills the picture as far as its shape allows. The light is at the camera: every hit of a camera ray sends
+# exactly one shadow ray, so counting these counts hits.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export LC_ALL=C

@@ -17,7 +17,7 @@
 #   examples/generate.sh crown N       a twig of 100 leaves, N / 100 times, turned about its end
 #   examples/generate.sh hills N       N patches, a square number, of one smooth landscape, seen along it, the sun as low
 #
-# Of the first three the light stands at the camera: every hit of a camera ray sends one shadow ray, so that counting those
+# In the first three the light is at the camera: every hit of a camera ray sends one shadow ray, so counting these
 # counts hits.
 set -euo pipefail
 export LC_ALL=C
@@ -29,7 +29,7 @@ count=${2:?how many patches?}
 case $count in *[!0-9]*) echo "$0: '$count' is no number of patches" >&2 && exit 2 ;; esac
 case " $KINDS " in *" $kind "*) ;; *) echo "$0: there is no '$kind'" >&2 && exit 2 ;; esac
 awk -v kind="$kind" -v n="$count" '
-  # A generator of its own: the same scene wherever awk runs.
+  # A generator of our own: the same scene whatever awk runs it.
   function random() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
   function between(a, b) { return a + (b - a) * random() }
   function head(x, y, z) { begin(x, y, z, x, y, z) }
@@ -45,7 +45,7 @@ awk -v kind="$kind" -v n="$count" '
     for (k = 0; k < 16; k++) printf ", <%.8g, %.8g, %.8g>", P[k, 0], P[k, 1], P[k, 2]
     printf " }\n"
   }
-  # The cubic with the points A[i, c], made as wide as `width` along the direction W[c] that turns by `twist` of a turn.
+  # The cubic with the points A[i, c], widened to `width` along the direction W[c], which turns by `twist` turns.
   function strip(width, twist, i, j, c, s, t, a) {
     for (i = 0; i < 4; i++) {
       a = 6.28318 * twist * i / 3
@@ -87,7 +87,7 @@ awk -v kind="$kind" -v n="$count" '
       strip(0.004, between(0, 1))
     }
   }
-  # A point of the body: a tube about a knot, bumps on it; s, t in turns.
+  # A point of the body: a tube about a knot, with bumps; s and t in turns.
   function body(s, t, c, a, b, r, q) {
     a = 6.28318530718 * s; b = 6.28318530718 * t
     for (c = 0; c < 2; c++) {
@@ -101,7 +101,8 @@ awk -v kind="$kind" -v n="$count" '
     r = 0.55 + 0.12 * sin(7 * a + 2 * b) + 0.05 * sin(31 * a) * cos(5 * b) + 0.02 * sin(97 * a + 13 * b)
     for (c = 0; c < 3; c++) B[c] = K[0, c] + r * (cos(b) * V[c] + sin(b) * W[c])
   }
-  # The piece of a uniform cubic B-spline with the control points Q[x, y, c] as a patch; M: weights of the points -1 ... 2.
+  # The piece of a uniform cubic B-spline with the control points Q[x, y, c] as a patch. M: weights of the points -1 ...
+  # 2.
   function spline(x, y, c, r, w) {
     split("1 4 1 0 0 4 2 0 0 2 4 0 0 1 4 1", M, " ")
     for (x = 0; x < 4; x++)
@@ -155,8 +156,8 @@ awk -v kind="$kind" -v n="$count" '
       patch()
     }
   }
-  # A ball about `at` with the half axes R, of eight patches: each as (ring, height) of two quarters of a circle, turned round;
-  # u goes up to the pole.
+  # A ball about `at` with the half axes R, of eight patches. Each is (ring, height) of two quarters of a circle,
+  # rotated; u goes up to the pole.
   function ball(i, s) {
     split("1 1 0.5522847498 0", along, " "); split("0 0.5522847498 1 1", up, " ")
     for (s = 0; s < 8; s++) {
@@ -193,7 +194,7 @@ awk -v kind="$kind" -v n="$count" '
       ball()
     }
   }
-  # The cubic with the points A[i, 0], A[i, 1], as deep as 2 `half`.
+  # The cubic with the points A[i, 0], A[i, 1], with the depth 2 `half`.
   function ruled(half, i, j) {
     for (i = 0; i < 4; i++)
       for (j = 0; j < 4; j++) { P[4 * i + j, 0] = A[i, 0]; P[4 * i + j, 1] = A[i, 1]; P[4 * i + j, 2] = (2 * j / 3 - 1) * half }
@@ -207,7 +208,7 @@ awk -v kind="$kind" -v n="$count" '
       ruled(1)
     }
   }
-  # The point of the roll where it is turned by a, and a third of the way on to the next patch: x, y; dx, dy.
+  # The point of the roll at the angle a, and a third of the way to the next patch: x, y; dx, dy.
   function wound(a, step, r) {
     r = 0.2 + 1.8 * a / (step * n)
     x = r * cos(a); y = r * sin(a)
@@ -222,7 +223,7 @@ awk -v kind="$kind" -v n="$count" '
       ruled(0.5)
     }
   }
-  # A square in the plane y = 0, of that half diagonal, turned by a.
+  # A square in the plane y = 0, of this half diagonal, turned by a.
   function square(half, a, i, u, v) {
     for (i = 0; i < 16; i++) {
       u = (2 * int(i / 4) / 3 - 1) / 2; v = (2 * (i % 4) / 3 - 1) / 2

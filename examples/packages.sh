@@ -3,12 +3,12 @@
 #
 #   install_packages NAME...
 #
-# Asks the network only when something is missing. Fails with the command to run where root would be needed.
+# Uses the network only if something is missing. If root is needed, it fails with the command to run.
 
-# A build folder that was made otherwise, by hand, stays what it is.
+# A build folder that was configured otherwise, by hand, is not changed.
 export CMAKE_GENERATOR=Ninja
 
-# What building and running pscn takes.
+# What building and running pscn needs.
 BUILD_PACKAGES=(cmake ninja-build gcc g++ libc6-dev pkg-config flex bison libopenimageio-dev libjansson-dev)
 
 install_packages() {

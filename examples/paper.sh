@@ -1,6 +1,6 @@
 #!/bin/bash
-# Regenerates docs/paper.md with every table and figure of docs/paper/, the numbers in its text included: some minutes, on an
-# otherwise idle machine. Counts are the same every time; times are not.
+# Regenerates docs/paper.md with every table and figure of docs/paper/, the numbers in its text included: some minutes,
+# on an otherwise idle machine. Counts are the same every time; times are not.
 #
 #   examples/paper.sh             everything
 #   examples/paper.sh PART...     only these, with the programs as they are built: curves random claims patch pictures maps
@@ -69,14 +69,14 @@ patch() {
   "$programs/footing" patch scenes/paper.pscn 100 75 | keep footing_patch.csv
 }
 
-# How many pixels are wrong, and how: what stands in the columns before, the scene, the solver; the picture and a map.
+# How many pixels are wrong, and how: leading columns, scene, solver; also the picture and a map.
 errors() {
   printf '%s,' "$1"
   "$programs/picture_errors" "$2" 320 240 "$3" "${4:-$data/unused}"
 }
 
-# Fig 16 and 17: the paper's own form, eps 1e-2, and 200 x magnified, eps 1e-10, line by line; and the default solver. Beside
-# each picture a map of what is wrong in it, and how many pixels of each kind.
+# Fig 16 and 17: the paper's own form, eps 1e-2, and 200 x magnified, eps 1e-10, line by line; and the default solver.
+# Beside each picture a map of its wrong pixels, and the number of each kind.
 pictures() {
   for figure in 'fig16 paper 1e-2' 'fig17 paper_magnified 1e-10'; do
     read -r name scene eps <<<"$figure"
@@ -111,10 +111,10 @@ maps() {
   done | { echo 'eps,method,iterations,roots,accurate,off,wrong'; cat; } | keep maps.csv
 }
 
-# More than the paper: cost and error against the distance to the nearest tangency.
+# Beyond the paper: cost and error against the distance to the nearest tangency.
 tangency() { "$programs/tangency" scenes/paper.pscn | keep tangency.csv; }
 
-# The share of the teapot's roots that are found, as its test counts it (tests/stability/teapot_roots.c).
+# The share of the teapot's roots that are found, counted as by its test (tests/stability/teapot_roots.c).
 teapot() {
   install_packages libcmocka-dev
   cmake -S . -B build -DPSCN_TESTS=ON >/dev/null

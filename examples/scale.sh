@@ -5,8 +5,8 @@
 #   examples/scale.sh [TEAPOTS...]       default 1 10 100 1000 10000; takes some six minutes
 #
 # The scenes are fields of teapots (examples/field.sh) and a single patch (scenes/bent.pscn). The two programs take
-# turns, TURNS times, or once where one of them is slow; times are medians of CPU seconds. Both get
-# MEMORY_LIMIT, POV-Ray TIME_LIMIT a run.
+# turns, TURNS times, or once if one of them is slow. Times are medians of CPU seconds. Both are limited to
+# MEMORY_LIMIT, POV-Ray also to TIME_LIMIT a run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -33,9 +33,9 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/home"
 
-# ours FILE SIZE THREADS: "parse build render rays hits MB wall" of pscn, in CPU seconds but for the last, the rendering
-# by the clock. It has POV-Ray's limit of memory, with which OpenImageIO is loaded before all else: beside the rendering
-# it would take a share of the processors, and threads would seem to gain less.
+# ours FILE SIZE THREADS: "parse build render rays hits MB wall" of pscn, in CPU seconds except for the last, the clock
+# time of rendering. It has POV-Ray's memory limit, under which OpenImageIO is loaded before everything else. Loaded
+# during rendering, it would take a share of the processors, and threads would seem to gain less.
 ours() {
   (ulimit -v "$MEMORY_LIMIT" && exec /usr/bin/time -f %M -o "$folder/memory" "$pscn" render "$1" --size "$2" \
     --threads "$3" --quiet --stats "$folder/stats.json" -o "$folder/pscn.png")
@@ -45,7 +45,7 @@ ours() {
     "$(awk '{ print $1 / 1024 }' "$folder/memory") $(members "$folder/stats.json" time render)"
 }
 
-# theirs FILE SIZE THREADS: "parse trace MB wall" of POV-Ray in the same way, or dashes where it did not come to an end.
+# theirs FILE SIZE THREADS: "parse trace MB wall" of POV-Ray in the same way, or dashes if it did not finish.
 theirs() {
   local status=0
   (cd "$(dirname "$1")" && ulimit -v "$MEMORY_LIMIT" && HOME=$folder/home exec timeout "$TIME_LIMIT" \
@@ -62,7 +62,7 @@ theirs() {
     END { print s[1] + 0, s[2] + 0, memory, wall + 0 }'
 }
 
-# both PART FILE SIZE THREADS: ours and theirs, 11 numbers; of the turns the median (PART 0.5) or the least (0).
+# both PART FILE SIZE THREADS: ours and theirs, 11 numbers: the median over the turns (PART 0.5) or the least (0).
 both() {
   local turn took part=$1
   shift
@@ -83,7 +83,7 @@ both() {
     }' "$folder/turns"
 }
 
-# In tables: a number with so many digits, or a dash.
+# For tables: a number with this many digits, or a dash.
 FORMAT='function f(x, digits) { return x == "-" ? "-" : sprintf("%." digits "f", x) }
   function above(mb) { return sprintf("%.0f", mb > empty ? mb - empty : 0) }'
 
@@ -145,7 +145,7 @@ printf '\n![CPU seconds and memory over patches](performance/scale.svg)\n' >>"$f
 
 # ---- reading ----
 
-# text KIND: some 8 MB of it, the same again and again but for a number, @.
+# text KIND: about 8 MB of it, repeating all but a number, @.
 text() {
   awk -v kind="$1" 'BEGIN {
     patch = "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3"
@@ -200,7 +200,7 @@ text() {
   }'
 }
 
-# reading NAME FILE: a row, by the least of the turns, for other work only ever adds to it; by trace, which loads no
+# reading NAME FILE: a row, by the fastest turn, since other work only adds time; by trace, which does not load
 # libraries for pictures meanwhile.
 reading() {
   for ((turn = 0; turn < TEXT_TURNS; turn++)); do

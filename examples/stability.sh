@@ -1,18 +1,18 @@
 #!/bin/bash
 # Where methods fail, measured: writes docs/stability.md and its pictures in docs/stability/.
 #
-# Builds with tests, runs the comparison with the reference in every class of tests/accuracy/situations.c, with every
-# solver in our form and in the paper's; the accuracy tests; and renders scenes where holes show, also by POV-Ray where
-# there is one.
+# Builds with tests; compares with the reference in every class of tests/accuracy/situations.c, for every solver in our
+# form and in the paper's; runs the accuracy tests; and renders scenes where holes show, with POV-Ray too if it is
+# installed.
 #
 #   examples/stability.sh            everything
-#   examples/stability.sh proofs     only the section of what the exact judge says; the rest of the page stays
-#   examples/stability.sh closed     only the section of closed surfaces
-#   examples/stability.sh proofs FILE...  the same, of what accuracy-certificate has printed before, in portions with seeds of
-#                                    their own; and of accuracy-parity and accuracy-cycles for `closed`
-#   examples/stability.sh maps       only the section of maps
+#   examples/stability.sh proofs     only the section on the exact judge; the rest of the page stays
+#   examples/stability.sh closed     only the section on closed surfaces
+#   examples/stability.sh proofs FILE...  the same from earlier output of accuracy-certificate, in portions with
+#                                    different seeds; for `closed`, of accuracy-parity and accuracy-cycles
+#   examples/stability.sh maps       only the section on maps
 #
-# PSCN_EFFORT (see tests/effort.h) sets the fraction of the rays for everything; without it each part has the fraction
+# PSCN_EFFORT (see tests/effort.h) sets the fraction of the rays for everything. Without it each part has the fraction
 # given below, some ten minutes of one core in all; `full` takes an hour or two. PSCN_BUILD is the build folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -45,13 +45,14 @@ PAPER='form paper'
 FRAME=320x240
 INSIDE=401x401
 
-# How many pixels of two pictures differ by more than $3 (1 is white).
+# The number of pixels of two pictures that differ by more than $3 (1 is white).
 pixels_over() {
   { "$pscn" compare "$1" "$2" --fail "$3" 2>/dev/null || true; } |
     awk -v over="$3" '$1 == "over" && $2 == over { print $3 }'
 }
 
-# Runs a program that counts: $1 the effort, $2 its text, the rest its command line. Says on the page when it fails.
+# Runs a program that counts: $1 the effort, $2 its description, the rest its command line. If it fails, the page says
+# so.
 measure() {
   local effort=$1 out=$2
   shift 2
@@ -62,7 +63,7 @@ measure() {
   } >>"$folder/failures"
 }
 
-# What tests/accuracy/trial.c's tally_print prints, two lines each, as rows of a table.
+# The output of tests/accuracy/trial.c's tally_print, two lines each, as rows of a table.
 tally_rows() {
   awk '/ undecided; lost / {
     name = $0; sub(/:.*/, "", name)
@@ -74,7 +75,8 @@ tally_rows() {
   }' "$1"
 }
 
-# What tests/accuracy/certificate_test.c prints, summed: a row a class, or with $2 `solver` a row a solver and split.
+# The output of tests/accuracy/certificate_test.c, summed: a row for each class, or if $2 is `solver`, for each solver
+# and split.
 proof_rows() {
   awk -v by="${2:-class}" '/ answers: proven / {
     name = substr($0, 1, 36); sub(/ +$/, "", name)
@@ -106,7 +108,8 @@ proof_rows() {
   }' "$1"
 }
 
-# The values of PSCN_SEED that what is printed in $1 was run with: `seed N` is a test's own number and a million times that.
+# The values of PSCN_SEED with which the output in $1 was made: `seed N` is a test's own number plus a million times
+# that.
 seeds_of() {
   grep -oE 'seed [0-9]+' "$1" | awk '{ n = int($2 / 1000000); if (!(n in seen)) { seen[n] = 1; print n } }' | sort -n |
     awk 'function told() { list = list (list ? ", " : "") (first == last ? first : first " to " last) }
@@ -116,7 +119,7 @@ seeds_of() {
       END { told(); print list == "0" ? "none" : list }'
 }
 
-# What accuracy-parity and accuracy-cycles print, summed by what the rays are aimed at and what they are asked with.
+# The output of accuracy-parity and accuracy-cycles, summed by what the rays are aimed at and how they are asked.
 closed_rows() {
   awk '/ rays, .* of wrong parity/ {
     name = $0; sub(/^seed [0-9]+, /, "", name); sub(/: .*/, "", name)
@@ -214,7 +217,7 @@ END
   echo
 }
 
-# Maps of what every solver does on the teapot, in the default form and the paper's.
+# Maps of every solver's work on the teapot, in the default form and the paper's.
 maps_section() {
   local methods=(bernstein newton laguerre aberth durand_kerner) method form map cell
   cat <<END
@@ -261,7 +264,7 @@ END
   rm -f "$pictures"/map-*-residual.png "$pictures"/map-default-*-deviation.png
 }
 
-# Puts a section made by $2 in the place of the one with that heading, or before "## Holes".
+# Replaces the section with this heading by the output of $2, or inserts it before "## Holes".
 replace_section() {
   "$2" >"$folder/section"
   awk -v section="$folder/section" -v heading="## $1" '

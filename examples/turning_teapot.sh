@@ -1,5 +1,5 @@
 #!/bin/bash
-# The teapot turns: a loop of the shell over one number that the scene finds declared is an animation.
+# The teapot turns: a shell loop over one number that is declared to the scene makes an animation.
 #
 #   examples/turning_teapot.sh [FRAMES] [FOLDER] [OPTION...]     options of pscn render, such as --size 400x300
 #
