@@ -15,6 +15,7 @@
 
 #include "accuracy/certificate.h"
 #include "accuracy/exact.h"
+#include "accuracy/lists.h"
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 #include "geometry/vector.h"
@@ -55,11 +56,15 @@ static bool faces(const char *text, const double normal[3])
   return !text[0] || (sscanf(text, "%lf %lf %lf", &side[0], &side[1], &side[2]) == 3 && vector_dot(side, normal) > 0);
 }
 
-/* Whether the hits are as many as in `count`, if any; if they are certain, the first must be the nearest. */
-static bool all_good(struct tracer *tracer, const struct ray *ray, const struct hit *nearest, const char *count)
+/* Whether the list of all hits is right, and there are as many as in `count`, if that is given; if list and nearest hit
+ * are certain, the first must be the nearest. */
+static bool all_good(const struct trial *trial, const struct ray *ray, const struct hit *nearest, const char *count)
 {
+  static struct list_truth truth;
   struct hit_list list;
-  assert_int_equal(tracer_all(tracer, 1, ray, &list), STATUS_OK);
+  assert_int_equal(tracer_all(trial->tracer, 1, ray, &list), STATUS_OK);
+  list_truth_find(&trial->scene, trial->reference, ray, &truth);
+  if (list_judge(&list, &truth) > LIST_UNDECIDED) return false;
   if (list.certainty == CERTAINTY_CERTAIN && nearest->certainty == CERTAINTY_CERTAIN &&
       (list.count > 0 ? list.hits[0].patch : HIT_NONE) != nearest->patch)
     return false;
@@ -86,13 +91,13 @@ static bool judged_good(const char *path)
   certifier_create(&certifier, scene, trial.reference);
   tracer_closest(trial.tracer, 1, &ray, &hit);
   certify(&certifier, &ray, &hit, &certificate);
-  const bool all = all_good(trial.tracer, &ray, &hit, count);
+  const bool all = all_good(&trial, &ray, &hit, count);
   const bool good = all && certificate.finding <= FINDING_UNDECIDED &&
                     (!certain[0] || (hit.certainty == CERTAINTY_CERTAIN) == !strcmp(certain, "yes")) &&
                     numbers_are(t, 1, &hit.t) && numbers_are(uv, 2, (double[]){hit.u, hit.v}) &&
                     numbers_are(patch, 1, (double[]){hit.patch}) && faces(facing, hit.normal);
   if (!good)
-    printf("%s:%s %s, %s\n", strrchr(path, '/') + 1, all ? "" : " not all, or grazing;",
+    printf("%s:%s %s, %s\n", strrchr(path, '/') + 1, all ? "" : " not all, a wrong one, or grazing;",
            hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[certificate.finding]);
   certifier_destroy(&certifier);
   trial_destroy(&trial);
