@@ -204,9 +204,11 @@ static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathe
     reach = far > reach ? far : reach;
   }
   gather->regions.count = 0;
-  if (packet_let_go(p) >> lane & 1) certain = false; /* its list will be made anew */
+  const bool anew = packet_let_go(p) >> lane & 1; /* its list will be made anew */
+  if (anew) certain = false;
   else if (gather->open.count > 0) collect_regions(gather, lane);
-  const bool decided = gather->regions.count > 0 || (tie && certain);
+  /* A list in doubt is decided, too: on a line where leaves meet, each of them finds the same root. */
+  const bool decided = gather->regions.count > 0 || (tie && !anew && !p->model->unproven);
   if (decided) certain &= decide(p, lane, roots, count);
   out->certainty = certain ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
   out->count = decided ? gather->list.count : count;
