@@ -7,7 +7,7 @@
 
 static const char PATH[] = PSCN_SOURCE_DIR "/tests/corpus/polynomials.txt";
 
-/* "# name: what"; false where it is a plain comment. */
+/* Reads "# name: what"; false for a plain comment. */
 static int read_name(const char *line, struct corpus_entry *out)
 {
   const char *colon = strstr(line, ": ");

@@ -17,7 +17,7 @@ struct corpus_entry {
   double error[POLYNOMIAL_MAX_DEGREE + 1]; /* bounds on b's rounding */
 };
 
-/* Reads the corpus; the number of entries, or 0 where the file cannot be read or is not well formed. */
+/* Reads the corpus. Returns the number of entries, or 0 if the file cannot be read or is not well formed. */
 size_t corpus_read(struct corpus_entry out[CORPUS_MAX]);
 
 #endif

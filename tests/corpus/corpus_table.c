@@ -41,7 +41,7 @@ static bool belongs(const struct solver *solver, struct exact_root root)
   return !solver->real_only || (root.real && root.re >= 0.0 && root.re <= 1.0);
 }
 
-/* The largest distance of true roots and values paired as said above; roots without a value are counted. */
+/* The largest distance of true roots and values, paired as said above. Counts roots without a value. */
 static double pair_up(const struct exact_roots *exact, const struct solver *solver, const struct root_set *found,
                       int *out_roots, int *out_missing)
 {
@@ -116,10 +116,10 @@ static void cell(const struct corpus_entry *entry, const struct exact_roots *exa
 
 /* ---- mpsolve ---- */
 
-/* The digits that it is asked for: more than a double has. */
+/* The digits asked of it: more than a double has. */
 #define DIGITS "20"
 
-/* c as the fraction of two whole numbers that it is. */
+/* Writes c as the fraction of two whole numbers that it is. */
 static void write_fraction(FILE *file, double c)
 {
   int exponent;
@@ -142,7 +142,7 @@ static double seconds_of_children(void)
          1e-6 * ((double)usage.ru_utime.tv_usec + (double)usage.ru_stime.tv_usec);
 }
 
-/* Its roots as doubles, and the CPU seconds of the whole process; false where there is no mpsolve. */
+/* Its roots as doubles, and the CPU seconds of the whole process; false if mpsolve is missing. */
 static bool mpsolve(const struct corpus_entry *entry, struct root_set *out, double *out_seconds)
 {
   char path[] = "/tmp/corpus-XXXXXX", command[128], line[512];

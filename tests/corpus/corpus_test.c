@@ -45,7 +45,7 @@ static struct polynomial polynomial_of(const struct corpus_entry *entry, enum ba
                              basis == BASIS_POWER ? NULL : entry->error};
 }
 
-/* What holds for any answer of any solver. Answers the number of false statements. */
+/* What must hold for any answer of any solver. Returns the number of false statements. */
 static int check_answer(const char *solver, const struct corpus_entry *entry, enum basis basis, double tolerance,
                         const struct exact_roots *exact, const struct solver_options *options,
                         const struct root_set *roots)
@@ -100,8 +100,8 @@ static void answers_are_true(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* The promise of the default solver: no real root in [0,1] is lost. One disc of each solution must hold it; roots so
- * near to each other that they share a cluster may share its discs. */
+/* The default solver promises that no real root in [0,1] is lost: one disc of each answer must hold it. Roots so near
+ * each other that they share a cluster may share its discs. */
 static void no_real_root_is_lost(void **state)
 {
   const struct fixture *fixture = *state;
@@ -132,8 +132,8 @@ static void no_real_root_is_lost(void **state)
   assert_int_equal(lost, 0);
 }
 
-/* Aberth's method as it is by default brings every root of every polynomial, none twice: the values can be paired with
- * the true roots so that each lies within its partner's disc. (In the power basis, whose coefficients are exact.) */
+/* Aberth's method, by default, finds every root of every polynomial, and none twice: values and true roots can be
+ * paired so that each root lies within its partner's disc. (In the power basis, whose coefficients are exact.) */
 static void aberth_finds_all(void **state)
 {
   const struct fixture *fixture = *state;
@@ -170,8 +170,8 @@ static void aberth_finds_all(void **state)
   assert_int_equal(missing, 0);
 }
 
-/* Random coefficients of all sizes, zeros among them, exact and with bounds, in both bases: the discs must hold roots
- * of the polynomial as given (a bound of 0 belongs to it as much as any other). */
+/* Random coefficients of all sizes, some of them zero, exact and with bounds, in both bases. The discs must hold roots
+ * of the polynomial as given (which is within the bounds like any other). */
 static void wild_coefficients(void **state)
 {
   (void)state;
@@ -210,7 +210,7 @@ static void wild_coefficients(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* c of degree n times u - root, in its basis; returns the new degree. */
+/* Multiplies c of degree n by u - root, in its basis. Returns the new degree. */
 static int times_linear(enum basis basis, int n, double c[], double root)
 {
   const double slope = basis == BASIS_POWER ? 1.0 : 1.0 - root;
@@ -220,7 +220,7 @@ static int times_linear(enum basis basis, int n, double c[], double root)
   return n + 1;
 }
 
-/* Roots of [0,1] next to each other, next to the ends and to halves of intervals, of a polynomial with bounds. */
+/* Roots of [0,1] near each other, near the ends and near halves of intervals, of a polynomial with bounds. */
 static int draw_bounded(struct random *random, int trial, enum basis basis, double c[], double error[])
 {
   const int degree = 1 + (int)(random_bits(random) % (trial % 3 == 0 ? 18 : 6));
@@ -240,7 +240,7 @@ static int draw_bounded(struct random *random, int trial, enum basis basis, doub
   return degree;
 }
 
-/* The real roots in [0,1] that no answer has within its radius. */
+/* The number of real roots in [0,1] that lie within no answer's radius. */
 static int count_lost(const struct exact_roots *exact, const struct root_set *roots)
 {
   int lost = 0;
@@ -254,7 +254,7 @@ static int count_lost(const struct exact_roots *exact, const struct root_set *ro
   return lost;
 }
 
-/* Of a polynomial known within bounds the true one is any of them: none loses a root in [0,1]. */
+/* Any polynomial within the bounds may be the true one: no root of it in [0,1] is lost. */
 static void no_root_within_bounds_is_lost(void **state)
 {
   (void)state;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Headers of another house, which do not compile under our warnings. */
+/* Foreign headers, which do not compile under our warnings. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -16,7 +16,7 @@
 #include <flint/fmpz_poly_factor.h>
 #pragma GCC diagnostic pop
 
-/* Bits of the roots: enough for a distance of 1e-90 between two of them to have 53 good bits. */
+/* Bits of the roots: enough for the distance of two that are 1e-90 apart to have 53 good bits. */
 enum { PRECISION = 400 };
 
 struct exact_roots {
@@ -25,7 +25,7 @@ struct exact_roots {
   int multiplicity[POLYNOMIAL_MAX_DEGREE];
 };
 
-/* c[k] times the same power of two for all k, as integers. */
+/* c[k] times a common power of two, as integers. */
 static void set_integers(fmpz_poly_t out, int degree, const double c[])
 {
   int lowest = 0;
@@ -119,7 +119,7 @@ struct exact_root exact_roots_at(const struct exact_roots *roots, int index)
   };
 }
 
-/* The distance rounded down, or up. */
+/* The distance rounded down or up. */
 static double distance(const struct exact_roots *roots, int index, double re, double im, bool up)
 {
   acb_t at;

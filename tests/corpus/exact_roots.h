@@ -12,8 +12,8 @@
 
 struct exact_roots;
 
-/* The finite roots of p, whose coefficients are finite and not all zero; p->error is not looked at. NULL where memory
- * is short. */
+/* The finite roots of p. Its coefficients must be finite and not all zero; p->error is ignored. NULL if memory is
+ * short. */
 struct exact_roots *exact_roots_find(const struct polynomial *p);
 void exact_roots_destroy(struct exact_roots *roots);
 
@@ -31,7 +31,7 @@ struct exact_root exact_roots_at(const struct exact_roots *roots, int index);
 double exact_roots_distance_below(const struct exact_roots *roots, int index, double re, double im);
 double exact_roots_distance_above(const struct exact_roots *roots, int index, double re, double im);
 
-/* The least exact_roots_distance_below over all roots; INFINITY where there is none. */
+/* The least exact_roots_distance_below over all roots; INFINITY if there are none. */
 double exact_roots_nearest_below(const struct exact_roots *roots, double re, double im);
 
 #endif

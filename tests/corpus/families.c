@@ -1,4 +1,4 @@
-/* The families. Where roots are chosen, the coefficients are products in double: the polynomial meant is the rounded
+/* The families. If roots are chosen, the coefficients are products in double, and the polynomial meant is the rounded
  * one. */
 #include "corpus/families.h"
 
@@ -24,7 +24,7 @@ static int draw_decades(struct random *random, double decades, double c[])
   return degree;
 }
 
-/* c of degree n times x - root. */
+/* Multiplies c of degree n by x - root. */
 static int times_linear(int n, double c[], double root)
 {
   c[n + 1] = c[n];
@@ -33,7 +33,7 @@ static int times_linear(int n, double c[], double root)
   return n + 1;
 }
 
-/* c of degree n times x^2 - sum x + product. */
+/* Multiplies c of degree n by x^2 - sum x + product. */
 static int times_quadratic(int n, double c[], double sum, double product)
 {
   c[n + 1] = c[n + 2] = 0;

@@ -27,7 +27,7 @@ struct trial {
   const struct exact_roots *exact;
   const struct root_set *roots;
   bool holds[POLYNOMIAL_MAX_DEGREE][POLYNOMIAL_MAX_DEGREE]; /* [true root, with copies][answer] */
-  int true_count;                                           /* with copies */
+  int true_count;                                           /* counted with copies */
   struct exact_root at[POLYNOMIAL_MAX_DEGREE];
 };
 
@@ -42,7 +42,7 @@ static void tell(const struct trial *trial, const char *what, double re, double 
               (int)trial->basis, what, re, im);
 }
 
-/* Kuhn's augmenting path: whether true root t finds an answer. */
+/* Kuhn's augmenting path: whether true root t can be given an answer. */
 static bool augment(const struct trial *trial, int t, bool seen[], int partner[])
 {
   for (int r = 0; r < trial->roots->count; r++) {

@@ -15,7 +15,7 @@ enum call failing;
 atomic_long *left;
 bool armed;
 
-/* An allocation's place: who asked, for whom, and so on; memory.c and arena.c are among them. */
+/* An allocation's place: its caller, the caller's caller, and so on; memory.c and arena.c are among them. */
 enum { MOST_PLACES = 4096, FRAMES = 8 };
 
 long place_count;
@@ -103,7 +103,7 @@ int __wrap_open(const char *path, int flags, ...)
 {
   va_list arguments;
   va_start(arguments, flags);
-  const mode_t mode = va_arg(arguments, mode_t); /* whatever it is where there is none */
+  const mode_t mode = va_arg(arguments, mode_t); /* undefined if there is none */
   va_end(arguments);
   return fails(OPEN) ? failure(EMFILE) : __real_open(path, flags, mode);
 }
@@ -125,14 +125,14 @@ int __wrap_linkat(int from_folder, const char *from, int to_folder, const char *
 int __wrap_close(int file)
 {
   const bool told = fails(CLOSE);
-  const int result = __real_close(file); /* a file is closed even where that fails */
+  const int result = __real_close(file); /* a file is closed even if that fails */
   return told ? failure(EIO) : result;
 }
 
 int __wrap_fclose(FILE *file)
 {
   const bool told = fails(FCLOSE);
-  const int result = __real_fclose(file); /* likewise */
+  const int result = __real_fclose(file); /* the same */
   return told ? failure(ENOSPC) : result;
 }
 

@@ -24,7 +24,7 @@ enum call {
   DUP,
   FORK,
   PIPE,
-  ALLOCATE_AT /* of each place in the sources the first one, instead of the nth */
+  ALLOCATE_AT /* the first one of each place in the sources, instead of the nth */
 };
 
 /* Of one kind of call: how many succeed before one fails, or for ALLOCATE_AT the number of the place, of `place_count`

@@ -24,7 +24,7 @@ static int run(const char *const arguments[])
   return code;
 }
 
-/* The linker hands calls of piece_read to this one: before pixels are read the first time "other" becomes "one". */
+/* The linker passes calls of piece_read here. Before pixels are read for the first time, "other" becomes "one". */
 static bool change;
 enum status __real_piece_read(const char *path, bool pixels, struct piece *out, char *message);
 enum status __wrap_piece_read(const char *path, bool pixels, struct piece *out, char *message);

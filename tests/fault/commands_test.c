@@ -26,9 +26,9 @@ enum { LEAST = 8, MOST_ARGUMENTS = 24 };
 
 static char folder[] = "/tmp/pscn-fault-XXXXXX";
 static char input[64], output[64], errors[64], answers[64], stats[64], results[64], page[80], povray[64], picture[64];
-static char kept[80]; /* what is rendered of `output` and could not be written there */
+static char kept[80]; /* what was rendered of `output` and could not be written there */
 
-/* What jansson asks for, where it is to count as ours. */
+/* jansson's allocations, if they are to count as ours. */
 static void *json_block(size_t size) { return malloc(size); }
 
 static size_t size_of(const char *path)
@@ -37,7 +37,7 @@ static size_t size_of(const char *path)
   return stat(path, &s) == 0 ? (size_t)s.st_size : 0;
 }
 
-/* Runs a command with its streams in files; answers its exit code. */
+/* Runs a command with its streams in files. Returns its exit code. */
 static int run(const char *const arguments[])
 {
   const char *argv[MOST_ARGUMENTS] = {NULL};
@@ -71,7 +71,7 @@ static void expect_no_litter(void)
   closedir(here);
 }
 
-/* What a command leaves: nothing but its answers, a file (`output`, with `stats`), a folder of files (`results`). */
+/* What a command leaves: only its answers, a file (`output`, with `stats`), a folder of files (`results`). */
 enum leaves { NOTHING, FILES, FOLDER };
 
 static void remove_results(void)
@@ -97,7 +97,7 @@ static size_t count_results(void)
   return count;
 }
 
-/* What was there before: nothing, or an old file of that name. */
+/* Restores the initial state: nothing, or an old file of that name. */
 static void prepare(enum leaves leaves, const char *old)
 {
   remove(output), remove(kept), remove(stats), remove_results();
@@ -106,7 +106,7 @@ static void prepare(enum leaves leaves, const char *old)
   put_text(leaves == FOLDER ? page : output, old);
 }
 
-/* After a command that failed all is as it was. */
+/* Asserts that after a command that failed everything is as before. */
 static void expect_as_before(enum leaves leaves, const char *old)
 {
   const char *path = leaves == FOLDER ? page : output;
@@ -115,7 +115,7 @@ static void expect_as_before(enum leaves leaves, const char *old)
   if (leaves == FOLDER) assert_true(old ? count_results() == 1 : access(results, F_OK) != 0);
 }
 
-/* Whether an error is told more than once. */
+/* Whether an error is reported more than once. */
 static bool repeats(const char *text)
 {
   for (const char *line = text, *next; (next = strchr(line, '\n')) != NULL; line = next) {
@@ -129,7 +129,7 @@ static bool repeats(const char *text)
   return false;
 }
 
-/* Fails the test with what was told, where the exit code is wrong, a word is missing or one too many. */
+/* Fails the test, with the messages, if the exit code is wrong, or a word is missing or superfluous. */
 static void expect_told(bool right, const char *command, enum call call, long n, int code)
 {
   char text[1000];
@@ -144,13 +144,13 @@ static void expect_told(bool right, const char *command, enum call call, long n,
 static bool fits(int code, enum call call)
 {
   if (call == ALLOCATE || call == ALLOCATE_AT || call == THREAD || call == MMAP) return code == STATUS_LIMIT;
-  return code == STATUS_FILE || (call == OPEN && code == STATUS_INPUT); /* an error of the scene that includes */
+  return code == STATUS_FILE || (call == OPEN && code == STATUS_INPUT); /* an error in the scene that includes it */
 }
 
-/* Lets the calls of that kind fail one after the other; or, of a command that takes memory thousands of times and
- * starts programs, the first one of each place that takes memory. Of commands that make folders, each run of which takes long, every
- * fifth one where the effort is small (PSCN_SEED: which), but of processes. Answers how many there are. `old`: what the file to
- * be written, or the page of the folder, held before, or NULL. */
+/* Lets each call of this kind fail in turn; or, for a command that takes memory thousands of times and starts programs,
+ * the first one of each place that takes memory. Commands that make folders take long: if the effort is small, only
+ * every fifth call of theirs fails (PSCN_SEED: which), except calls that start processes. Returns the number of calls.
+ * `old`: the former content of the file to be written, or of the folder's page, or NULL. */
 static long fail_each(const char *const arguments[], enum call call, enum leaves leaves, const char *old)
 {
   prepare(leaves, NULL);
@@ -171,7 +171,7 @@ static long fail_each(const char *const arguments[], enum call call, enum leaves
     if (code != STATUS_OK) {
       assert_true(size_of(errors) > 0);
       expect_as_before(leaves, old);
-    } else if (leaves == FOLDER) { /* the figure may be left out, and that is told */
+    } else if (leaves == FOLDER) { /* the figure may be missing, with a message */
       assert_true(count_results() == files || (count_results() == files - 1 && size_of(errors) > 0));
     } else {
       assert_int_equal(size_of(answers), answered);
@@ -194,7 +194,7 @@ static void fail_files(const char *const arguments[], enum leaves leaves)
     const bool always = calls[k] != FCHMOD && calls[k] != RENAME && calls[k] < FOPEN;
     const long made = fail_each(arguments, calls[k], leaves, NULL);
     assert_true(leaves == NOTHING || !always || made > 0);
-    const bool naming = calls[k] == FCHMOD || calls[k] == LINK || calls[k] == RENAME; /* of a file that was there */
+    const bool naming = calls[k] == FCHMOD || calls[k] == LINK || calls[k] == RENAME; /* of an existing file */
     if (leaves == FILES || (leaves == FOLDER && naming))
       assert_true(fail_each(arguments, calls[k], leaves, "old") > 0 || calls[k] >= FOPEN);
   }
@@ -236,7 +236,7 @@ static void test_others(void **state)
   assert_true(fail_each(dump, ALLOCATE, NOTHING, NULL) > LEAST);
   feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n");
   assert_true(fail_each(trace, ALLOCATE, NOTHING, NULL) > LEAST);
-  feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n0 1 0 0 1 0\n"); /* the last one meets the pole: the last resort's lists too */
+  feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n0 1 0 0 1 0\n"); /* the last one meets the pole, for the last resort's lists */
   assert_true(fail_each(all, ALLOCATE, NOTHING, NULL) > LEAST);
   assert_true(fail_each(twice, ALLOCATE, NOTHING, NULL) > LEAST);
   fail_files(trace, NOTHING);
@@ -253,7 +253,7 @@ static void test_others(void **state)
   feed("");
 }
 
-/* A picture, as `compare` reads it and the other program below answers with. */
+/* A picture that `compare` reads, and with which the program below answers. */
 static void make_picture(void)
 {
   const char *const render[] = {
@@ -261,7 +261,7 @@ static void make_picture(void)
   if (access(picture, F_OK) != 0) assert_int_equal(run(render), STATUS_OK);
 }
 
-/* The pieces of a picture: none is changed, and the picture is there or not. */
+/* The pieces of a picture: none is changed, and the picture is complete or absent. */
 static void test_merge(void **state)
 {
   (void)state;
@@ -281,7 +281,7 @@ static void test_merge(void **state)
   for (int k = 0; k < 2; k++) remove(piece[k]);
 }
 
-/* Room for OpenImageIO is asked for before it is loaded, which is once. */
+/* Room for OpenImageIO is reserved before it is loaded, which happens once. */
 static void test_first_picture(void **state)
 {
   (void)state;
@@ -312,7 +312,7 @@ static void test_standard_input(void **state)
   feed("");
 }
 
-/* A program that answers as POV-Ray would: the picture, a hit for every ray, a time. */
+/* A program that answers as POV-Ray does: the picture, a hit for every ray, a time. */
 static const char POVRAY[] = "#!/bin/sh\n"
                              "[ \"$1\" = --version ] && { echo 'POV-Ray 3.7.0'; exit; }\n"
                              "sed -n 's/^Ask(.*/1/p' scene.pov >answers.txt\n"
@@ -348,7 +348,7 @@ static void test_check(void **state)
   fail_files(arguments, FOLDER);
 }
 
-/* The scene's own text is copied with all that it includes. */
+/* The scene's own text is copied with everything that it includes. */
 static void test_check_own_text(void **state)
 {
   (void)state;
@@ -392,7 +392,7 @@ static void test_chart(void **state)
                                    "--no-peers", "-o",
                                    results,      NULL};
   snprintf(page, sizeof page, "%s/chart.html", results);
-  assert_true(fail_each(arguments, FORK, FOLDER, NULL) == 2); /* gnuplot, and who keeps its folder */
+  assert_true(fail_each(arguments, FORK, FOLDER, NULL) == 2); /* gnuplot, and the process that keeps its folder */
   assert_true(fail_each(arguments, PIPE, FOLDER, "old") == 2);
   fail_files(arguments, FOLDER);
   assert_true(fail_each(arguments, ALLOCATE_AT, FOLDER, NULL) > LEAST);
@@ -400,7 +400,7 @@ static void test_chart(void **state)
 
 int main(int argc, char **argv)
 {
-  if (argc > 1) cmocka_set_test_filter(argv[1]); /* one test by its name, by hand */
+  if (argc > 1) cmocka_set_test_filter(argv[1]); /* a single test by its name, by hand */
   left = mmap(NULL, sizeof *left, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (left == MAP_FAILED || !mkdtemp(folder)) return EXIT_FAILURE;
   atomic_init(left, -1);

@@ -29,7 +29,7 @@ static void put(const char *path, const void *bytes, size_t size)
   assert(file && fwrite(bytes, 1, size, file) == size && fclose(file) == 0);
 }
 
-/* Runs a command with these bytes as standard input; answers its exit code. */
+/* Runs a command with these bytes as standard input. Returns its exit code. */
 static int run(const char *argv[], const uint8_t *data, size_t size)
 {
   const struct command *command = command_find(argv[0]);
@@ -67,7 +67,7 @@ static void leave(void)
   if (chdir("..") == 0) (void)rmdir(folder);
 }
 
-/* A scene, what it includes, and two pictures of it: what the arguments of FUZZ_OPTIONS may name. */
+/* Makes a scene, its include file, and two pictures of it, which the arguments of FUZZ_OPTIONS may name. */
 static void enter(void)
 {
   static const char scene[] =
@@ -137,8 +137,8 @@ static void roots(const uint8_t *data, size_t size)
       data + 2, size - 2);
 }
 
-/* No names of files with a folder: what is written stays in this one. What decides how long a run takes is said last and
- * counts. */
+/* File names may have no folder, so that all files stay in this one. Options that bound the run time are appended, and
+ * so take effect. */
 static void options(const uint8_t *data, size_t size)
 {
   enum { MOST = 20, TYPED = 1 };
@@ -174,7 +174,7 @@ struct picture_form {
   bool encoded;
 };
 
-/* Writes a picture of these values and reads it back: 32 bits of EXR are kept as they are. */
+/* Writes a picture with these values and reads it back: EXR with 32 bits keeps them. */
 static void write_picture(const char *path, const struct image *image, const struct picture_form *form)
 {
   const struct image_encoding encoding = {.format = form->format, .bits = form->bits, .encoded = form->encoded};
@@ -194,11 +194,11 @@ static void write_picture(const char *path, const struct image *image, const str
   image_destroy(&again);
 }
 
-/* A picture of any values is equal to itself; to another one it is compared, whatever comes of it. */
+/* A picture with any values is equal to itself. It is also compared with another one, with any result. */
 static void pictures(const uint8_t *data, size_t size)
 {
   enum { HEAD = 5 };
-  static const char *const names[] = {"R", "G", "B", "A", "depth", "u"}; /* as EXR sorts them */
+  static const char *const names[] = {"R", "G", "B", "A", "depth", "u"}; /* in EXR's order */
   static const char *const lists[] = {"R", "B,R", "depth", "R,G,B,A,depth", "", "R,,G"};
   if (size < HEAD) return;
   const bool exr = data[0] & 1;
@@ -220,7 +220,7 @@ static void pictures(const uint8_t *data, size_t size)
     memcpy(image.value, data + HEAD + room, size - HEAD - room < room ? size - HEAD - room : room);
   write_picture(second, &image, &form);
   const char *list = TURN(lists, data[4] & 63);
-  if (data[4] & 64) /* which waits for the disk */
+  if (data[4] & 64) /* this waits for the disk */
     run(
       ARGUMENTS("compare", first, second, "--channels", list, "--scale=1e30", "-o", data[4] & 128 ? "d.png" : "d.exr"),
       nothing, 0);

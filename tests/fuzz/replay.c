@@ -26,7 +26,7 @@ static void run_file(const char *path)
     size += got;
   } while (got > 0);
   (void)fclose(file);
-  (void)fprintf(say, "%s\n", path); /* the last name is that of what crashed */
+  (void)fprintf(say, "%s\n", path); /* the last name is that of the input that crashed */
   alarm(SECONDS_EACH);
   (void)LLVMFuzzerTestOneInput(data, size);
   alarm(0);

@@ -1,6 +1,6 @@
-/* Scene text, which finds files to include, numbers that are declared and, where its first line is a comment "//: TEXT",
- * TEXT as that of --solver. Reading ends with a scene or with errors; a scene is finite, its dump reads back as the same
- * dump. With FUZZ_RENDER it is rendered as well, 16 x 12 pixels, by every kernel that the processor has. */
+/* Scene text. It finds files to include and declared numbers; if its first line is a comment "//: TEXT", TEXT is a text
+ * of --solver. Reading ends with a scene or with errors. A scene is finite, and its dump reads back as the same dump.
+ * With FUZZ_RENDER it is also rendered, 16 x 12 pixels, by every kernel of the processor. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ static void tell(void *context, const char *text, size_t length)
   ++*(size_t *)context;
 }
 
-/* The text behind "//: " on the first line, or NULL. */
+/* The text after "//: " in the first line, or NULL. */
 static const char *solver_text(const char *text, size_t length, char out[SOLVER_TEXT])
 {
   static const char MARK[] = "//: ";
@@ -66,7 +66,7 @@ static struct scene *load(const char *text, size_t length)
 }
 
 #ifdef FUZZ_RENDER
-/* What is kept of each pixel, in this order. */
+/* The channels of each pixel, in this order. */
 static const char CHANNELS[] = "depth,u,v,patch,normal,status,rgb";
 enum { STATUS_CHANNEL = 7, DATA_CHANNELS, CHANNEL_COUNT = DATA_CHANNELS + 3 };
 typedef float picture[HEIGHT][WIDTH][CHANNEL_COUNT];
@@ -87,7 +87,7 @@ static void render(const struct scene *scene, picture out)
   intersector_destroy(intersector);
 }
 
-/* No number of a pixel is NaN, and what two kernels call certain is the same. */
+/* No value of a pixel is NaN, and two kernels agree on what both call certain. */
 static void expect(const float pixel[CHANNEL_COUNT], const float first[CHANNEL_COUNT])
 {
   for (int c = 0; c < DATA_CHANNELS; c++) assert(!isnan(pixel[c]));

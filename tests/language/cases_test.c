@@ -25,7 +25,7 @@ static void tell(void *context, const char *text, size_t length)
   assert_int_equal(fwrite(text, 1, length, context), length);
 }
 
-/* Whether text is what the file holds; on request the file is made to hold it. */
+/* Whether the file holds this text. On request the text is written to it. */
 static bool is_expected(const char *path, const char *text, size_t length)
 {
   if (getenv("PSCN_UPDATE")) {
@@ -133,8 +133,8 @@ static void test_ok(void **state)
   run_folder("ok", "dump", ok_case);
 }
 
-/* Pieces of a picture may be rendered on different machines, so the hash is the same on all of them. This one is a Python
- * program's. */
+/* Pieces of a picture may be rendered on different machines, so the hash must be the same on all of them. A Python
+ * program has computed this one. */
 static void test_hash(void **state)
 {
   (void)state;
@@ -146,7 +146,7 @@ static void test_hash(void **state)
   scene_destroy(scene);
 }
 
-/* A file that is not there is no file; nor is a text. */
+/* A missing file is no file; nor is a text. */
 static void test_missing(void **state)
 {
   (void)state;
@@ -164,7 +164,8 @@ static void test_missing(void **state)
   free(said);
 }
 
-/* Whether the patches of a copy are its object's, moved, within the rounding of three products, their sum and what is summed. */
+/* Whether the patches of a copy are its object's, moved, within the rounding of three products, their sum and its
+ * terms. */
 static bool is_moved(const struct scene *scene, const struct scene_copy *copy)
 {
   const struct scene_object *object = &scene->objects[copy->object];
@@ -182,7 +183,7 @@ static bool is_moved(const struct scene *scene, const struct scene_copy *copy)
   return same;
 }
 
-/* What stands in a scene several times is told, the outermost object alone, and how it is moved. */
+/* Objects that stand in a scene several times are reported, only the outermost ones, and how they are moved. */
 static void test_copies(void **state)
 {
   (void)state;
@@ -209,7 +210,7 @@ static void test_copies(void **state)
 
 int main(void)
 {
-  /* Names in what is told are relative to this folder. */
+  /* Names in messages are relative to this folder. */
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok), cmocka_unit_test(test_hash),
                                      cmocka_unit_test(test_missing), cmocka_unit_test(test_copies)};

@@ -53,7 +53,7 @@ static void test_files(void **state)
 static void test_unreadable_file(void **state)
 {
   (void)state;
-  if (geteuid() == 0) skip(); /* root reads everything */
+  if (geteuid() == 0) skip(); /* root may read everything */
   char path[] = "/tmp/pscn-XXXXXX";
   const int file = mkstemp(path);
   assert_true(file >= 0 && fchmod(file, 0) == 0);
@@ -116,7 +116,7 @@ static void test_wrong_solver_texts(void **state)
   }
 }
 
-/* Many different ones, each asked for twice: all are kept, and each once. */
+/* Many different ones, each asked for twice: all are kept, once each. */
 static void test_textures_and_solvers(void **state)
 {
   (void)state;
@@ -190,7 +190,7 @@ static char *repeated(const char *piece, size_t count, const char *end, size_t *
   return text;
 }
 
-/* Long texts of one kind: reading them takes time in proportion, and ends as it should. */
+/* Long texts of one kind: the time of reading is proportional to the length, and the status is right. */
 static void test_long_texts(void **state)
 {
   (void)state;
@@ -229,8 +229,8 @@ static void test_long_texts(void **state)
   }
 }
 
-/* A quarter of a million names, many more that are not known, and ten thousand files that forget theirs: minutes if any
- * of it took time in proportion to all that there is. */
+/* A quarter of a million names, many more that are unknown, and ten thousand files that forget theirs. It would take
+ * minutes if any step took time in proportion to all names. */
 static void test_many_names(void **state)
 {
   (void)state;
@@ -253,7 +253,7 @@ static void test_many_names(void **state)
   free(text);
 }
 
-/* Files that include each other hold each text once. */
+/* Of files that include each other each text is held once. */
 static void test_included_often(void **state)
 {
   (void)state;
@@ -269,7 +269,7 @@ static void test_included_often(void **state)
   assert_non_null(strstr(told, "--max-memory allows more"));
 }
 
-/* Patches are counted before any is built: at once, however many there are. */
+/* Patches are counted before any is built, so too many are refused at once. */
 static void test_max_memory(void **state)
 {
   (void)state;
@@ -284,7 +284,7 @@ static void test_max_memory(void **state)
   assert_null(scene);
 }
 
-/* What is included is a file; a pipe that nobody writes to is not waited for. */
+/* Include files must be files. A pipe without a writer is not waited for. */
 static void test_included_kinds(void **state)
 {
   (void)state;
@@ -308,7 +308,7 @@ static void test_included_kinds(void **state)
   rmdir(folder);
 }
 
-/* 2^150 copies of nothing take no time. */
+/* 2^150 copies of an empty object take no time. */
 static void test_many_empty_copies(void **state)
 {
   (void)state;
@@ -325,7 +325,7 @@ static void test_many_empty_copies(void **state)
   "<0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> <1,2,0> <2,2,1> " \
   "<3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0>"
 
-/* Named once it is its patches and no more. */
+/* An object named once is only its patches. */
 static void test_one_is_no_copy(void **state)
 {
   (void)state;
@@ -339,8 +339,8 @@ static void test_one_is_no_copy(void **state)
   scene_destroy(scene);
 }
 
-/* A declared object that is named several times is told to be one, whatever it is in and however it is moved; its
- * patches are where its copies' maps carry them. */
+/* A declared object that is named several times is reported as one, wherever it is and however it is moved. Its copies'
+ * maps carry its patches to theirs. */
 static void test_copies(void **state)
 {
   (void)state;
@@ -354,7 +354,7 @@ static void test_copies(void **state)
   assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
   assert_int_equal(scene->patch_count, 7);
   assert_int_equal(scene->copy_count, 4);
-  assert_int_equal(scene->object_count, 2); /* P by itself, which is named in Two as well, and Two */
+  assert_int_equal(scene->object_count, 2); /* P itself, which is also named in Two, and Two */
   static const size_t first[4] = {0, 1, 3, 5};
   double moved = 0;
   for (size_t c = 0; c < 4; c++) {

@@ -17,8 +17,8 @@
 #include "language/language.h"
 
 enum {
-  LEAST = 6,            /* allocations that reading surely takes */
-  MAX_FILE_BYTES = 2000 /* the longer ones take many of one kind */
+  LEAST = 6,            /* allocations that reading takes at least */
+  MAX_FILE_BYTES = 2000 /* longer ones take many allocations of one kind */
 };
 
 static long left = -1; /* allocations that succeed before one fails; negative: all do */
@@ -66,7 +66,7 @@ static enum status load(const char *path, size_t *out_errors)
   return status;
 }
 
-/* How many allocations reading the file takes; each of them has failed once then. */
+/* The number of allocations that reading the file takes. Each of them has failed once. */
 static long run(const char *path)
 {
   size_t errors;
@@ -77,7 +77,7 @@ static long run(const char *path)
     const bool failed = left < 0;
     left = -1;
     assert_true(status == expected || status == STATUS_LIMIT);
-    /* Without memory for the text of an error it is counted all the same. */
+    /* An error counts even without memory for its text. */
     assert_int_equal(status != STATUS_OK, errors > 0);
     if (!failed) {
       assert_int_equal(status, expected);

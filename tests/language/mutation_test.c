@@ -19,7 +19,7 @@ enum {
   SEED = 20260601,
   ROUNDS = 60,           /* of each file */
   MAX_ACCIDENTS = 4,     /* in one text */
-  MAX_FILE_BYTES = 6000, /* the long ones are about length, not about what stands in them */
+  MAX_FILE_BYTES = 6000, /* longer files test lengths, not contents */
   MAX_FILES = 200
 };
 
@@ -178,7 +178,7 @@ static size_t read_file(const char *path, char *out)
   return length;
 }
 
-/* What came of all the texts, so that a test that only ever meets errors is seen. */
+/* The outcomes of all texts: shows if the test only ever meets errors. */
 struct tally {
   int scenes, errors;
 };

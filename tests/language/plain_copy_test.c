@@ -1,4 +1,4 @@
-/* The text that POV-Ray reads: a file is included from where the language finds it, and copied once. */
+/* The text for POV-Ray: files are included from where the language finds them, and copied once. */
 #include "language/plain_copy.h"
 
 #include <dirent.h>
@@ -13,7 +13,7 @@
 
 static char place[] = "/tmp/pscn-test-XXXXXX";
 
-/* A folder with two others: sub, of files to include, and out, of the copies. */
+/* A folder with two others: sub for include files, out for the copies. */
 static int make_folders(void **state)
 {
   (void)state;
@@ -60,7 +60,7 @@ static void the_scenes_folder_comes_first(void **state)
   expect_file("out/3-c.inc", "// beside a.inc alone\n");
 }
 
-/* Even one that includes itself, or the scene, in a branch that is never read. */
+/* Even a file that includes itself, or the scene, in a branch that is never read. */
 static void a_file_is_copied_once(void **state)
 {
   (void)state;
@@ -88,7 +88,7 @@ static void a_long_name_is_cut(void **state)
   expect_file("out/scene.pov", scene);
 }
 
-/* Blanks stand for them, so that POV-Ray's messages name the scene's lines. */
+/* Blanks replace them, so that POV-Ray's messages name the scene's lines. */
 static void solver_statements_are_left_out(void **state)
 {
   (void)state;
@@ -103,7 +103,7 @@ static void solver_statements_are_left_out(void **state)
     {"a { solver newton } b", "a {               } b"},
     {"solver newton #include \"e.inc\"", "              #include \"1-e.inc\""},
     {"solver aberth { polish on", "                         "},
-    /* What is none. */
+    /* These are none. */
     {"// solver newton", "// solver newton"},
     {"\"solver newton\" solver", "\"solver newton\" solver"},
     {"solver 1 solver { } b", "solver 1 solver { } b"},

@@ -30,7 +30,7 @@ static void test_found_again(void **state)
   struct arena *arena = arena_create();
   struct table table = {0};
   assert_null(find(&table, "", 0));
-  for (int n = 0; n < NAMES; n++) { /* of all lengths, some nothing but NULs */
+  for (int n = 0; n < NAMES; n++) { /* of all lengths, some of NULs only */
     struct item *item = &items[n];
     item->length = (size_t)(n % LONGEST);
     if (n >= LONGEST) snprintf(item->name, LONGEST, "%0*d", (int)item->length, n);

@@ -1,5 +1,5 @@
-/* The lists of words that the manual, the completions and the editors are told: whole, of the kind that they say, each word
- * once; and which word a misspelt one was meant to be. */
+/* The lists of words for the manual, the completions and the editors are complete, of the right kind, and have each
+ * word once. Also tests which word a misspelt one stands for. */
 #include "language/words.h"
 
 #include <string.h>
@@ -70,12 +70,12 @@ static void test_guesses(void **state)
   guess = guess_begin("Same", 4);
   guess_consider(&guess, "Same", 4);
   assert_null(guess.best);
-  /* Of those that are as near the first is meant. */
+  /* Of equally near words the first is meant. */
   guess = guess_begin("camere", 6);
   guess_consider(&guess, "camera", 6);
   guess_consider(&guess, "cameru", 6);
   assert_string_equal(guess.best, "camera");
-  /* What is longer than anybody types is compared with nothing. */
+  /* A word longer than anybody types is not compared. */
   char large[5000];
   memset(large, 'a', sizeof large);
   guess = guess_begin(large, sizeof large);
@@ -83,7 +83,7 @@ static void test_guesses(void **state)
   assert_null(guess.best);
 }
 
-/* A third of the letters may be wrong, of a short word one; two that are exchanged are one. */
+/* A third of the letters may be wrong, in a short word one. Two exchanged letters count as one. */
 static void test_how_wrong(void **state)
 {
   (void)state;

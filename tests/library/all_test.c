@@ -11,7 +11,7 @@
 
 enum { SIDE = 40, COUNT = SIDE * SIDE, MOST = 3, BALLS = 4 };
 
-/* Balls in a row along z, so that lines along it meet each twice. */
+/* Balls in a row along z. A line along z meets each of them twice. */
 static struct pscn_scene *make_balls(const struct pscn_options *options)
 {
   double points[BALLS][BALL_PATCHES][4][4][3];
@@ -81,7 +81,7 @@ static void test_rows(void **state)
   pscn_scene_free(scene);
 }
 
-/* Neither the number nor the hit is proven where a ray meets the border of an open surface. */
+/* If a ray meets the border of an open surface, neither the number nor the hit is proven. */
 static void test_grazing(void **state)
 {
   (void)state;
@@ -137,7 +137,7 @@ static void *pool_resize(void *context, void *block, size_t size)
   return NULL;
 }
 
-/* Whatever fails, rays are answered as ever or have no answer, and all memory is given back. */
+/* Whatever fails, rays have the same answers or none, and all memory is returned. */
 static void test_memory(void **state)
 {
   (void)state;
@@ -167,7 +167,7 @@ static void test_memory(void **state)
     }
     assert_false(answered);
     assert_int_equal(pool.blocks, built);
-    assert_int_equal(pscn_nearest(scene, 1, rays, 0, &hit, 0), PSCN_OK); /* which asks for none */
+    assert_int_equal(pscn_nearest(scene, 1, rays, 0, &hit, 0), PSCN_OK); /* it needs no memory */
   }
   pscn_scene_free(scene);
   assert_int_equal(pool.blocks, 0);

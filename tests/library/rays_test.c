@@ -86,7 +86,7 @@ static void patch_point(double P[4][4][3], double u, double v, double out[3])
   }
 }
 
-/* What hit->du and hit->dv are off from differences of nearby points. */
+/* How far hit->du and hit->dv are from differences of nearby points. */
 static double derivative_error(const struct pscn_scene *scene, const struct pscn_hit *hit)
 {
   const double step = 1e-6;
@@ -102,7 +102,7 @@ static double derivative_error(const struct pscn_scene *scene, const struct pscn
   return worst;
 }
 
-/* A hit lies on the ray and on the surface, its derivatives are the surface's, its normal is theirs. */
+/* A hit lies on the ray and on the surface; its derivatives and its normal are the surface's. */
 static void test_hits(void **state)
 {
   const struct rays *rays = *state;
@@ -135,7 +135,7 @@ static void test_hits(void **state)
   assert_true(hits > 100 && misses > 50 && certain > COUNT * 9 / 10 && off_by_something > hits / 2);
 }
 
-/* A patch far from the origin has the derivatives that it has there, to roundings of its own size. */
+/* A patch moved far from the origin has the same derivatives, up to roundings of its own size. */
 static void test_derivatives_far_away(void **state)
 {
   (void)state;
@@ -162,7 +162,7 @@ static void test_derivatives_far_away(void **state)
   pscn_scene_free(scene);
 }
 
-/* One by one, backwards, and as members of something else. */
+/* One by one, backwards, and as members of larger structures. */
 static void test_order_and_strides(void **state)
 {
   const struct rays *rays = *state;
@@ -203,8 +203,8 @@ static void test_occluded(void **state)
   }
 }
 
-/* A ray in the plane that a patch touches along a border to the third order, up to a corner that it meets at t: too much to do
- * for one ray. */
+/* A ray in the plane that a patch touches along a border to the third order, up to a corner that it meets at t: too
+ * much work for one ray. */
 static void test_occluded_end_of_work(void **state)
 {
   static const double net[4][4][3] = {{{-3, -3, 3}, {-5, -3, 3}, {-7, -3, 3}, {-9, -3, 3}},
@@ -224,7 +224,7 @@ static void test_occluded_end_of_work(void **state)
   pscn_scene_free(scene);
 }
 
-/* From the surface outwards nothing is met, inwards the other side; what t_min and t_max leave over. */
+/* From the surface outwards nothing is met, inwards the other side; and the effect of t_min and t_max. */
 static void test_ranges(void **state)
 {
   const struct rays *rays = *state;
@@ -262,7 +262,7 @@ static void test_lengths(void **state)
     for (int k = 0; k < 3; k++) ray.direction[k] = ldexp(towards.direction[k], e);
     ray.t_max = e < -1020 ? INFINITY : ldexp(8, -e);
     assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
-    const bool beyond = e < -1020; /* all doubles: the last of them, and grazing */
+    const bool beyond = e < -1020; /* T is beyond all doubles: it is the largest one, and grazing */
     assert_true(beyond ? other.t == DBL_MAX : ldexp(other.t, e) == one.t);
     assert_int_equal(other.certain, !beyond);
     other.t = one.t, other.certain = one.certain;
@@ -276,7 +276,7 @@ static void test_lengths(void **state)
   }
 }
 
-/* What is no ray, or has no scene, has no answer, and that is written too. */
+/* An invalid ray, or one without a scene, has no answer, and this is written, too. */
 static void test_no_answer(void **state)
 {
   const struct rays *rays = *state;
@@ -315,7 +315,7 @@ static void test_no_answer(void **state)
   pscn_scene_free(broken);
 }
 
-/* The arithmetic of the caller is another: answers are the same bits, and the caller's is as it was. */
+/* With another arithmetic of the caller's, answers have the same bits, and that arithmetic is restored. */
 static void test_arithmetic(void **state)
 {
   const struct rays *rays = *state;
@@ -356,8 +356,9 @@ static void test_arithmetic(void **state)
   pscn_scene_free(scene);
 }
 
-/* Points so near each other that arithmetic on 128 bits underflows, of which libgcc tells the x87: no flag is left there, for
- * the first trap that a caller asks for would see it; and traps that the caller has set in that unit alone do not spring. */
+/* Points so near each other that arithmetic on 128 bits underflows, which libgcc reports to the x87. It leaves no flag
+ * there, where the first trap that a caller enables would see it; and traps that the caller has set only there do not
+ * fire. */
 static void test_underflow(void **state)
 {
   (void)state;
@@ -397,7 +398,7 @@ static void test_underflow(void **state)
   pscn_scene_free(scene);
 }
 
-/* `start previous` is for one ray after the other; here it is a cold start. */
+/* `start previous` is for rays asked one after the other; here it is a cold start. */
 static void test_previous(void **state)
 {
   const struct rays *rays = *state;
@@ -419,10 +420,10 @@ static void test_previous(void **state)
 
 /* ---- threads ---- */
 
-/* Stack: what pscn.h asks for, and our own arrays. Sanitizers want more. */
+/* The stack that pscn.h asks for, and our own arrays. Sanitizers need more. */
 enum { THREADS = 4, TURNS = 6, STACK = (1536 << 10) + COUNT * 200 };
 
-/* Rays past a pole at 2^-1 ... 2^-64, from outside and along the surface: those that are searched deepest. */
+/* Rays past a pole at 2^-1 ... 2^-64, from outside and along the surface, which take the deepest search. */
 static char *ask_at_pole(const struct pscn_scene *scene)
 {
   for (int n = 0; n < 512; n++) {
@@ -435,7 +436,7 @@ static char *ask_at_pole(const struct pscn_scene *scene)
   return NULL;
 }
 
-/* Asks the scene that all share, and builds, asks and frees one of its own, time and again. Returns what went wrong. */
+/* Again and again asks the shared scene, and builds, asks and frees its own one. Returns what went wrong. */
 static void *thread_run(void *context)
 {
   const struct rays *rays = context;

@@ -32,7 +32,7 @@ static void test_version(void **state)
   for (int status = -1; status < 7; status++) assert_true(strlen(pscn_status_text((enum pscn_status)status)) > 3);
 }
 
-/* A file, its text, and the points that it has are one scene. */
+/* A file, its text, and its points make the same scene. */
 static void test_origins(void **state)
 {
   (void)state;
@@ -44,7 +44,7 @@ static void test_origins(void **state)
   assert_string_equal(pscn_scene_messages(file), "");
   assert_int_equal(pscn_patch_count(file), 1);
   assert_int_equal(pscn_patch(file, 0, P), PSCN_OK);
-  /* 64 bytes a point, the coordinates in the midst of it. */
+  /* 64 bytes a point, with the coordinates in the middle. */
   double apart[16][8];
   for (int n = 0; n < 16; n++) memcpy(&apart[n][3], P[n / 4][n % 4], sizeof P[0][0]);
   assert_int_equal(pscn_scene_from_points(&apart[0][3], 1, 0, sizeof apart[0], NULL, &points), PSCN_OK);
@@ -83,7 +83,7 @@ static void test_messages(void **state)
   assert_int_equal(message.line, 5);
   assert_int_equal(pscn_message(scene, 3, &message), PSCN_USAGE);
   assert_string_equal(message.text, "");
-  const char *all = pscn_scene_messages(scene); /* asked again they are still there */
+  const char *all = pscn_scene_messages(scene); /* asking again does not remove them */
   assert_non_null(strstr(all, "given.pscn:3:3: error: unknown word 'loaction'"));
   assert_non_null(strstr(all, "\n  ^~~~~") ? all : strstr(all, "    ^~~~~~~~\n"));
   assert_string_equal(all, pscn_scene_messages(scene));
@@ -97,7 +97,7 @@ static void test_messages(void **state)
   pscn_scene_free(scene);
 }
 
-/* Each wrong argument is PSCN_USAGE, or PSCN_INPUT where it is data, with a message that names it. */
+/* Each wrong argument is PSCN_USAGE, or PSCN_INPUT for data, with a message that names it. */
 static void test_arguments(void **state)
 {
   (void)state;
@@ -161,7 +161,7 @@ static void test_arguments(void **state)
   pscn_scene_free(scene);
 }
 
-/* An instruction set that is not here is told. */
+/* A missing instruction set is reported. */
 static void test_kernel(void **state)
 {
   (void)state;
@@ -174,7 +174,7 @@ static void test_kernel(void **state)
   pscn_scene_free(scene);
 }
 
-/* What the options ask for is done. */
+/* The options take effect. */
 static void test_options(void **state)
 {
   (void)state;
@@ -215,7 +215,7 @@ struct pool {
   long blocks, asked, fails; /* held; asked for so far; the one that fails, or -1 */
 };
 
-/* Memory of ours has its number before it: nothing else is given back here. */
+/* Our blocks are preceded by their number: no other block is returned here. */
 static void *pool_resize(void *context, void *block, size_t size)
 {
   enum { HEAD = 32, MARK = 0x5ca1ab1e };
@@ -236,7 +236,7 @@ static void *pool_resize(void *context, void *block, size_t size)
   return NULL;
 }
 
-/* An arena asks its hooks once for many calls: each of those fails as well, counted together with what the hooks give. */
+/* An arena asks its hooks once for many calls. Each of these fails as well, counted together with the hooks' blocks. */
 static struct pool *asked_too;
 void *__real_arena_alloc(struct arena *arena, size_t count, size_t size);
 void *__wrap_arena_alloc(struct arena *arena, size_t count, size_t size);
@@ -245,7 +245,8 @@ void *__wrap_arena_alloc(struct arena *arena, size_t count, size_t size)
   return asked_too && asked_too->asked++ == asked_too->fails ? NULL : __real_arena_alloc(arena, count, size);
 }
 
-/* Copies of objects in unions, moved and turned, textures and solvers of their own, a light and a camera; and a warning. */
+/* Copies of objects in unions, moved and turned; textures and solvers of their own, a light, a camera; and a
+ * warning. */
 static const char MANY[] = "#version 3.5;\n"
                            "#declare Gold = texture { pigment { rgb <1, Low, 0> } finish { phong 1 } }\n"
                            "#declare A = bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
@@ -291,7 +292,7 @@ static void test_memory(void **state)
     for (long fails = 0; fails < all; fails++) {
       pool = (struct pool){0, 0, fails};
       const enum pscn_status status = from_text(scenes[k].text, &options, &scene);
-      /* Only a message is a thing that can be missing without harm. */
+      /* Only a message may be missing without harm. */
       assert_true(status == PSCN_LIMIT || (status == scenes[k].status && (status == PSCN_INPUT || scene)));
       assert_true(status == PSCN_OK || strstr(pscn_scene_messages(scene), "error: "));
       pscn_scene_free(scene);
@@ -301,7 +302,7 @@ static void test_memory(void **state)
   asked_too = NULL;
 }
 
-/* Patches of points: memory that fails or is limited, and a coordinate that is none. */
+/* Patches of points: memory that fails or is limited, and a coordinate that is not a number. */
 static void test_points(void **state)
 {
   (void)state;
@@ -338,7 +339,7 @@ static void test_points(void **state)
   }
 }
 
-/* Without a scene, and where nobody wants the answer. */
+/* Without a scene, or where no answer is wanted. */
 static void test_nothing(void **state)
 {
   (void)state;
