@@ -9,22 +9,14 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "random.h"
 
 enum { RANDOM_NUMBERS = 200000 };
 
-/* xorshift64*, Marsaglia 2003 and Vigna 2016. */
-static uint64_t next_random(uint64_t *state)
-{
-  *state ^= *state >> 12;
-  *state ^= *state << 25;
-  *state ^= *state >> 27;
-  return *state * UINT64_C(0x2545F4914F6CDD1D);
-}
-
 /* A random mantissa, without sign, times 2^binary. */
-static double random_double(uint64_t *state, int binary)
+static double random_double(struct random *random, int binary)
 {
-  return ldexp((double)(next_random(state) >> 11 | UINT64_C(1) << 52), binary - 52);
+  return ldexp((double)(random_bits(random) >> 11 | UINT64_C(1) << 52), binary - 52);
 }
 
 static void expect_digits(double value, int count, uint64_t digits, int exponent)
@@ -47,10 +39,11 @@ static void expect_digits(double value, int count, uint64_t digits, int exponent
 static void digits_are_printfs(void **state)
 {
   (void)state;
-  uint64_t random = 2021, digits;
+  struct random random = {2021};
+  uint64_t digits;
   int exponent;
   for (int k = 0; k < RANDOM_NUMBERS; k++) {
-    const double value = random_double(&random, (int)(next_random(&random) % 236) - 185); /* 1e-56 to 1e15 */
+    const double value = random_double(&random, (int)(random_bits(&random) % 236) - 185); /* 1e-56 to 1e15 */
     const int count = 1 + k % 17;
     if (decimal_from_double(value, count, &digits, &exponent)) expect_digits(value, count, digits, exponent);
     else assert_true(count < 17 || value < 1e-37);
@@ -110,10 +103,10 @@ static void expect_double(uint64_t digits, int exponent)
 static void doubles_are_strtods(void **state)
 {
   (void)state;
-  uint64_t random = 1982;
+  struct random random = {1982};
   for (int k = 0; k < RANDOM_NUMBERS; k++) {
-    const uint64_t digits = next_random(&random) >> (next_random(&random) % 64);
-    if (digits != 0) expect_double(digits, (int)(next_random(&random) % 55) - 27);
+    const uint64_t digits = random_bits(&random) >> (random_bits(&random) % 64);
+    if (digits != 0) expect_double(digits, (int)(random_bits(&random) % 55) - 27);
   }
 }
 
