@@ -142,6 +142,7 @@ struct leaf_room {
 struct model_object {
   const struct scene_object *declared;
   struct model *model; /* its patches as declared, about its middle; no scene, no neighbours; owned */
+  bool *twin;          /* the model's; NULL if the scene has none */
   /* bound on how far a point of a copy, or of a ray near it, may be off in the object's coordinates */
   double error;
 };
@@ -195,7 +196,8 @@ struct model {
   size_t copy_count;
   double error; /* widens the boxes of an object's hierarchy; else 0 */
   struct model_tree tree;
-  bool unproven; /* `polish off` on some patch, or too large: no answer is proven */
+  struct model_tree twins; /* of what lies exactly on something in `tree`, in its frame: only for all hits */
+  bool unproven;           /* `polish off` on some patch, or too large: no answer is proven */
 };
 
 /* Prepares all patches of the scene, which it borrows; a large scene by a team, with the same outcome. STATUS_LIMIT if
@@ -252,8 +254,9 @@ struct split_limit {
   double leaves;
 };
 
-/* The model of an object: of the patches of `nets`, which is borrowed for the call, their boxes wider by `error`. */
+/* Makes the model of an object: of the patches of `nets`, which is borrowed for the call, their boxes wider by
+ * object->error. */
 enum status model_create_object(const struct scene *nets, const struct team *team, const struct split_limit *limit,
-                                double error, struct model **out) STATUS_MUST_CHECK;
+                                struct model_object *object) STATUS_MUST_CHECK;
 
 #endif

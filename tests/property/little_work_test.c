@@ -75,6 +75,37 @@ static void of_lines_few_are_tried(void **state)
   few_are_tried("lines", nets, 0.1);
 }
 
+/* ---- twins ---- */
+
+/* Patches that lie exactly on the first one take no work, however many there are: a ray has few looks, and is certain
+ * nevertheless. */
+static void of_twins_none_is_looked_at(void **state)
+{
+  (void)state;
+  enum { FEW_LOOKS = 1000 }; /* what the first one needs is some 500 */
+  world_net nets[NETS];
+  struct random random = {SEED + 8};
+  struct world world;
+  for (size_t n = 0; n < NETS; n++) sheet(0, nets[n]);
+  world_open(&world, nets, NETS, NULL);
+  world.tracer->most_looks = FEW_LOOKS;
+  size_t hits = 0;
+  for (int n = 0; n < NET_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    world_towards(&random, (const double[3]){0, 0, 0.2}, 0.8, &ray);
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+    if (hit.patch == HIT_NONE) continue;
+    assert_int_equal(hit.patch, 0);
+    ray.t_max = hit.t / 2, hits++;
+    bool occluded;
+    tracer_occluded(world.tracer, 1, &ray, &occluded);
+    assert_false(occluded);
+  }
+  assert_true(hits > NET_RAYS / 2);
+  world_close(&world);
+}
+
 /* ---- next to poles ---- */
 
 /* An eighth of a ball as large as a planet, its pole at 0. */
@@ -340,6 +371,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
                                      cmocka_unit_test(of_lines_few_are_tried),
+                                     cmocka_unit_test(of_twins_none_is_looked_at),
                                      cmocka_unit_test(next_to_poles_little_is_left_open),
                                      cmocka_unit_test(next_to_poles_little_is_left_open_aslant),
                                      cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),

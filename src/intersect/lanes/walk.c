@@ -15,7 +15,7 @@
 #include "intersect/prepare/leaf.h"
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
-static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
+static void bundle_walk_all(struct bundle *b, const struct model *model);
 
 /* Walks a copy with those packets that have rays there. */
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
@@ -26,7 +26,7 @@ static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigne
     if (active & ALL_LANES) packet_enter(p, copy, lanes_mask(active & ALL_LANES), &inner.packet[inner.packets++]);
   bundle_set_later(&inner, b->packet[0].any);
   bundle_start(&inner, &copy->object->model->tree);
-  bundle_walk_all(&inner, &copy->object->model->tree);
+  bundle_walk_all(&inner, copy->object->model);
   for (int h = 0; h < inner.packets; h++) packet_leave(&inner.packet[h]);
 }
 
@@ -40,15 +40,6 @@ static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsig
   b->depth--;
   b->view = outer;
   bundle_update(b);
-}
-
-/* Whether all in that box lies exactly on something earlier in the scene, whose hit is then the nearest. */
-LANES_INLINE bool is_twin(const struct packet *p, uint32_t index)
-{
-  const struct model *model = p->model;
-  if (!model->twin || p->gather) return false;
-  if (index >= model->leaf_count) return model->copies[index - model->leaf_count].twin;
-  return model->twin[model->oriented[index].patch];
 }
 
 /* Those of the rays that may be in the box along a leaf. */
@@ -87,8 +78,6 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
   const struct model *model = b->packet[0].model;
   if (model_is_tree(model, index)) {
     bundle_inner(b, model_inner(model, tree, index), active);
-  } else if (is_twin(&b->packet[0], index)) {
-    return;
   } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);
   } else if (model->leaves) {
@@ -287,10 +276,12 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   else together_walk(b, tree, rays);
 }
 
-/* Walks all of the tree, and then tries the leaves that were put off. */
-static void bundle_walk_all(struct bundle *b, const struct model_tree *tree)
+/* Walks all of the model, twins only where all hits are asked for, and then tries the leaves that were put off. */
+static void bundle_walk_all(struct bundle *b, const struct model *model)
 {
+  const struct model_tree *tree = &model->tree;
   bundle_walk(b, tree, b->live);
+  if (b->packet[0].gather) bundle_walk(b, &model->twins, b->live);
   for (int h = 0; h < b->packets; h++) b->packet[h].later = NULL;
   for (unsigned k = 0; k < b->later.count; k++) {
     const unsigned rays = b->later.at[k].rays & b->live;
@@ -346,7 +337,7 @@ LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const str
   struct ready ready[PACKETS];
   struct bundle bundle;
   bundle_begin(&bundle, ready, tracer, count, rays, true, SHARE_ALONE);
-  bundle_walk_all(&bundle, &tracer->model->tree);
+  bundle_walk_all(&bundle, tracer->model);
   bool let_go = false;
   for (size_t h = 0; h < packets_of(count); h++) {
     const struct packet *packet = &bundle.packet[h];
@@ -395,7 +386,7 @@ static bool all(struct tracer *tracer, size_t count, const struct ray rays[], st
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false, share);
     for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
-    bundle_walk(&bundle, &tracer->model->tree, bundle.live);
+    bundle_walk_all(&bundle, tracer->model);
     for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       struct packet *packet = &bundle.packet[h];
       done &= gather_finish(packet, ready[h].copied ? ready[h].exponent : NULL, out + first + h * LANES);

@@ -246,10 +246,10 @@ enum status copies_choose(struct model *model, size_t most, size_t *own)
  * copy. */
 static enum status mark_twins_of_copy(const struct model *model, struct model_copy *copy)
 {
-  struct model *of = copy->object->model;
-  const size_t count = copy->object->declared->patch_count;
+  struct model_object *of = copy->object;
+  const size_t count = of->declared->patch_count;
   const bool first = !of->twin, *here = model->twin + copy->first_patch;
-  if (first) of->twin = arena_alloc(of->arena, count, sizeof *of->twin);
+  if (first) of->twin = arena_alloc(model->arena, count, sizeof *of->twin);
   if (!of->twin) return STATUS_LIMIT;
   for (size_t p = 0; p < count; p++) of->twin[p] = (first || of->twin[p]) && here[p];
   copy->twin = !memchr(here, false, count);
@@ -271,13 +271,15 @@ static enum status prepare_object(const struct model *model, const struct team *
   }
   const struct scene nets = {
     .patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
-  const enum status status = model_create_object(&nets, team, limit, object->error, &object->model);
+  const enum status status = model_create_object(&nets, team, limit, object);
   memory_free(patches);
   return status;
 }
 
 enum status copies_prepare(struct model *model, const struct team *team, const struct split_limit *limit)
 {
+  for (size_t k = 0; k < model->copy_count && model->twin; k++)
+    if (mark_twins_of_copy(model, &model->copies[k]) != STATUS_OK) return STATUS_LIMIT;
   for (size_t k = 0; k < model->copy_count; k++) {
     struct model_copy *copy = &model->copies[k];
     struct model_object *object = copy->object;
@@ -285,7 +287,6 @@ enum status copies_prepare(struct model *model, const struct team *team, const s
       const enum status status = prepare_object(model, team, copy, limit, object);
       if (status != STATUS_OK) return status;
     }
-    if (model->twin && mark_twins_of_copy(model, copy) != STATUS_OK) return STATUS_LIMIT;
     for (size_t p = 0; p < object->declared->patch_count; p++)
       memcpy(model->cuts[copy->first_patch + p].split, object->model->cuts[p].split, sizeof(uint16_t[2]));
   }

@@ -300,7 +300,7 @@ static enum status orient(struct making *m)
     model->oriented = oriented_in(model, model->oriented_room);
     status = making_do_parts(m, make_leaves, model->leaf_count);
   }
-  if (status == STATUS_OK) orient_inner(model, &model->tree);
+  if (status == STATUS_OK) orient_inner(model, &model->tree), orient_inner(model, &model->twins);
   return status;
 }
 
@@ -313,7 +313,7 @@ static enum status make_tree(struct making *m)
   if (status != STATUS_OK) return status;
   /* copies are behind the leaves */
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m->boxes[model->leaf_count + c]);
-  status = tree_build(model->arena, m->boxes, model->leaf_count + model->copy_count, m->team, &model->tree);
+  status = tree_build(model, m->boxes, m->team);
   return status == STATUS_OK ? orient(m) : status;
 }
 
@@ -322,7 +322,7 @@ static enum status make_again(struct making *m)
 {
   sum_leaves(m);
   end_arenas(m, false);
-  tree_free(&m->model->tree);
+  tree_free(&m->model->tree), tree_free(&m->model->twins);
   memory_free(m->boxes), m->boxes = NULL;
   return make_tree(m);
 }

@@ -92,15 +92,14 @@ static struct model *model_begin(const struct scene *scene)
 }
 
 enum status model_create_object(const struct scene *nets, const struct team *team, const struct split_limit *limit,
-                                double error, struct model **out)
+                                struct model_object *object)
 {
-  *out = NULL;
   struct model *model = model_begin(nets);
   if (!model) return STATUS_LIMIT;
-  model->error = error;
+  model->error = object->error, model->twin = object->twin;
   const enum status status = hierarchy_make(model, team, limit, true, SIZE_MAX);
   model->scene = NULL;
-  if (status == STATUS_OK) *out = model;
+  if (status == STATUS_OK) object->model = model;
   else model_destroy(model);
   return status;
 }
@@ -191,7 +190,7 @@ void model_destroy(struct model *model)
 {
   if (!model) return;
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
-  tree_free(&model->tree);
+  tree_free(&model->tree), tree_free(&model->twins);
   memory_free(model->oriented_room);
   memory_free(model->plane);
   memory_free(model->planes);

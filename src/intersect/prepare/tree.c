@@ -141,9 +141,9 @@ void tree_box(const double middle[3], double frame, struct bvh_box *box)
   }
 }
 
-/* What the trees are built from: all boxes, given less tree_about. */
+/* What the trees are built from: all boxes of the model, given less tree_about. */
 struct building {
-  struct arena *arena;
+  const struct model *model;
   struct bvh_box *boxes;
   size_t count;
   double about[3];
@@ -188,7 +188,7 @@ static enum status build_outer(const struct building *b, const struct grouping *
 /* Builds the trees of the groups. */
 static enum status build_inner(const struct building *b, int depth, const struct grouping *g, struct model_tree *out)
 {
-  out->inner = arena_alloc(b->arena, g->count, sizeof *out->inner);
+  out->inner = arena_alloc(b->model->arena, g->count, sizeof *out->inner);
   if (!out->inner) return STATUS_LIMIT;
   enum status status = STATUS_OK;
   for (size_t n = 0; n < g->count && status == STATUS_OK; n++) {
@@ -201,6 +201,24 @@ static enum status build_inner(const struct building *b, int depth, const struct
     status = build(b, depth, g->index + group->first, group->count, center, ldexp(1, exponent), &out->inner[n]);
   }
   return status;
+}
+
+/* Whether all in that box lies exactly on something earlier in the scene, whose hit is then the nearest. */
+static bool is_twin(const struct model *model, uint32_t box)
+{
+  if (box >= model->leaf_count) return model->copies[box - model->leaf_count].twin;
+  return model->twin[model->leaves ? model->leaves[box].patch : model->places[box].patch];
+}
+
+/* Moves twins to the end; returns how many other boxes there are. */
+static size_t twins_last(const struct model *model, uint32_t index[], size_t count)
+{
+  size_t others = 0;
+  for (size_t k = 0; k < count && model->twin; k++) {
+    const uint32_t here = index[k];
+    if (!is_twin(model, here)) index[k] = index[others], index[others++] = here;
+  }
+  return model->twin ? others : count;
 }
 
 /* Builds a tree of boxes[index[0..count-1]], within `depth` others, in a frame of size `frame` about `middle`, which is
@@ -218,17 +236,21 @@ static enum status build(const struct building *b, int depth, uint32_t index[], 
   return status;
 }
 
-enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
-                       struct model_tree *tree)
+enum status tree_build(struct model *model, struct bvh_box boxes[], const struct team *team)
 {
-  struct building all = {.arena = arena, .boxes = boxes, .count = count, .team = team};
+  const size_t count = model->leaf_count + model->copy_count;
+  struct model_tree *tree = &model->tree;
+  struct building all = {.model = model, .boxes = boxes, .count = count, .team = team};
   const double frame = tree->frame;
   double middle[3];
   for (int k = 0; k < 3; k++) all.about[k] = tree_about(tree, k), middle[k] = tree->origin[k] - all.about[k];
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
-  const enum status status = build(&all, 0, index, count, middle, frame, tree);
+  const size_t others = twins_last(model, index, count);
+  enum status status = build(&all, 0, index, others, middle, frame, tree);
+  if (status == STATUS_OK && others < count)
+    status = build(&all, 0, index + others, count - others, middle, frame, &model->twins);
   memory_free(index);
   return status;
 }
