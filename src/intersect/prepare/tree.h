@@ -25,8 +25,8 @@ static inline double tree_about(const struct model_tree *whole, int k)
 void tree_box(const double middle[3], double frame, struct bvh_box *box);
 
 /* Builds model->tree and model->twins over the boxes of the model's leaves, and then of its copies, given less
- * tree_about, in the frame that the tree has already. Uses the boxes up. STATUS_LIMIT if memory or threads are short; then there may be nodes to
- * free. */
+ * tree_about, in the frame that the tree has already. Uses the boxes up. STATUS_LIMIT if memory or threads are short;
+ * then there may be nodes to free. */
 enum status tree_build(struct model *model, struct bvh_box boxes[], const struct team *team) STATUS_MUST_CHECK;
 
 static inline double box_center(const struct bvh_box *box, int axis) { return box->lo[axis] / 2 + box->hi[axis] / 2; }
