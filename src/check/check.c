@@ -7,6 +7,13 @@
 #include "check/measure.h"
 #include "check/process.h"
 
+/* Measures a row, and makes its files before the next row takes its picture's place. */
+static enum status measure_row(struct check *check, size_t steps)
+{
+  const enum status status = check_measure_row(check, steps);
+  return status == STATUS_OK ? check_make_pictures(check) : status;
+}
+
 static enum status measure_series(struct check *check)
 {
   enum status status = STATUS_OK;
@@ -17,7 +24,7 @@ static enum status measure_series(struct check *check)
       patch->u_steps = patch->v_steps = (int)steps;
       patch->flatness = 0;
     }
-    status = check_measure_row(check, steps);
+    status = measure_row(check, steps);
   }
   return status;
 }
@@ -29,7 +36,7 @@ static enum status measure_as_written(struct check *check)
     listener_tell(check->listener, TOLD_WARNING,
                   "this system cannot keep the scene's own text from writing files: it "
                   "runs with all your rights");
-  const enum status status = check_measure_row(check, 0);
+  const enum status status = measure_row(check, 0);
   if (status == STATUS_OK && check->warnings.length > 0)
     listener_tell(check->listener, TOLD_PROGRESS, "%s", check->warnings.text);
   return status;
@@ -47,7 +54,7 @@ static enum status measure(struct check *check)
   return status == STATUS_OK ? check_find_worst(check) : status;
 }
 
-static enum status judge(const struct check *check, struct text_buffer *out_text)
+static enum status judge(struct check *check, struct text_buffer *out_text)
 {
   char beyond[256], verdict[512];
   const bool within = check_within_limits(check, beyond, sizeof beyond);
@@ -82,7 +89,8 @@ enum status check_scene(const struct check_request *request, struct scene *scene
   enum status status = measure(check);
   if (status == STATUS_OK) status = judge(check, out_text);
   povray_close(&check->povray);
-  for (size_t k = 0; k < check->row_count; k++) check_row_free(&check->row[k]);
+  for (size_t k = 0; k < check->row_count; k++) image_destroy(&check->row[k].picture.image);
+  for (size_t k = 0; k < CHECK_FILES; k++) text_buffer_free(&check->file[k]);
   check_ours_free(&check->ours);
   text_buffer_free(&check->warnings);
   free(check);

@@ -125,7 +125,7 @@ double check_pixel_difference(const struct check *check, const struct check_row 
 
 double check_limit(const struct check *check) { return check->request->fail.each + CODE_ROUNDING; }
 
-static void compare_row(const struct check *check, struct check_row *row)
+static void compare_row(const struct check *check, const unsigned char *mask, struct check_row *row)
 {
   const struct compare_pair pair = pair_of(check, row);
   const double limit = check_limit(check);
@@ -137,8 +137,8 @@ static void compare_row(const struct check *check, struct check_row *row)
       const size_t index = y * check->request->width + x;
       const bool hit = check->ours.pixel[index].hit.patch != HIT_NONE;
       row->over_limit_on[check->ours.pixel[index].edge] += check_pixel_difference(check, row, x, y) > limit;
-      row->mask_ours += hit && !row->mask[index];
-      row->mask_theirs += !hit && row->mask[index];
+      row->mask_ours += hit && !mask[index];
+      row->mask_theirs += !hit && mask[index];
     }
   }
 }
@@ -164,7 +164,7 @@ static void compare_distances(size_t count, double ours[], const double theirs[]
 }
 
 /* Asks which pixels POV-Ray hits, and for the distances on the grid. */
-static enum status ask(struct check *check, struct check_row *row)
+static enum status ask(struct check *check, unsigned char *mask, struct check_row *row)
 {
   const struct check_request *request = check->request;
   const size_t width = request->width, height = request->height, step = request->grid;
@@ -183,7 +183,7 @@ static enum status ask(struct check *check, struct check_row *row)
     rays[k] = pixel_ray(check, x, y);
     ours[k] = check->ours.pixel[y * width + x].distance;
   }
-  status = povray_ask(&check->povray, check->scene, count, rays, theirs, row->mask);
+  status = povray_ask(&check->povray, check->scene, count, rays, theirs, mask);
   if (status == STATUS_OK) compare_distances(count, ours, theirs, &row->distances);
 
 done:
@@ -198,6 +198,7 @@ done:
 enum status check_measure_row(struct check *check, size_t steps)
 {
   struct check_row *row = &check->row[check->row_count];
+  if (check->row_count > 0) image_destroy(&row[-1].picture.image);
   *row = (struct check_row){.steps = steps};
   const struct check_request *request = check->request;
   const bool own = steps == 0 && request->own_text;
@@ -205,16 +206,11 @@ enum status check_measure_row(struct check *check, size_t steps)
                            : povray_render(&check->povray, check->scene, &row->picture);
   if (status != STATUS_OK) return status;
   if (check->row_count++ == 0) povray_warnings(&check->povray, &check->warnings);
-  row->mask = calloc(request->width * request->height, 1);
-  status = row->mask == NULL || check->warnings.failed ? listener_out_of_memory(check->listener) : ask(check, row);
-  if (status == STATUS_OK) compare_row(check, row);
+  unsigned char *mask = calloc(request->width * request->height, 1); /* [height][width]: POV-Ray hits */
+  status = mask == NULL || check->warnings.failed ? listener_out_of_memory(check->listener) : ask(check, mask, row);
+  if (status == STATUS_OK) compare_row(check, mask, row);
+  free(mask);
   return status;
-}
-
-void check_row_free(struct check_row *row)
-{
-  image_destroy(&row->picture.image);
-  free(row->mask);
 }
 
 /* ---- the worst pixels ---- */

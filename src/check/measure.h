@@ -41,9 +41,8 @@ struct check_distances {
 };
 
 struct check_row {
-  size_t steps; /* 0: as written */
-  struct povray_picture picture;
-  unsigned char *mask; /* [height][width]: POV-Ray hits */
+  size_t steps;                  /* 0: as written */
+  struct povray_picture picture; /* its image is kept until the next row is measured */
   struct compare_result result;
   size_t over[CHECK_CODES], over_limit;
   size_t over_limit_on[CHECK_EDGES]; /* the pixels over the limit, by kind of edge */
@@ -68,7 +67,8 @@ struct check {
   size_t row_count;
   struct check_worst worst[CHECK_WORST]; /* of the last row */
   size_t worst_count;
-  struct text_buffer warnings; /* POV-Ray's warnings on the scene as written */
+  struct text_buffer warnings;          /* POV-Ray's warnings on the scene as written */
+  struct text_buffer file[CHECK_FILES]; /* what is written; empty: the file must not exist */
 };
 
 /* ---- measure.c ---- */
@@ -79,7 +79,6 @@ void check_ours_free(struct check_ours *ours);
 
 /* Adds a row for the scene in check->scene, or, if steps is 0 and the request asks for it, for its own text. */
 enum status check_measure_row(struct check *check, size_t steps) STATUS_MUST_CHECK;
-void check_row_free(struct check_row *row);
 
 /* Finds the worst pixels of the last row, and asks POV-Ray for their distances. */
 enum status check_find_worst(struct check *check) STATUS_MUST_CHECK;
@@ -112,8 +111,11 @@ json_t *check_json(const struct check *check);
 
 /* ---- results.c ---- */
 
+/* Makes the files of the last row's pictures. Errors go to the listener. */
+enum status check_make_pictures(struct check *check) STATUS_MUST_CHECK;
+
 /* Writes all results; `verdict` is one sentence. *out_text receives the numbers as a table. Errors go to the
  * listener. */
-enum status check_write(const struct check *check, const char *verdict, struct text_buffer *out_text) STATUS_MUST_CHECK;
+enum status check_write(struct check *check, const char *verdict, struct text_buffer *out_text) STATUS_MUST_CHECK;
 
 #endif

@@ -20,8 +20,7 @@ enum { CROP = 15 }; /* size of the crop around one of the worst pixels */
 enum { ROWS = CHECK_MAX_STEPS + 1, FILE_JSON = 1 + 2 * ROWS, FILE_PAGE, FILES = CHECK_FILES };
 
 struct results {
-  const struct check *check;
-  struct text_buffer content[FILES]; /* empty: the file must not exist */
+  struct check *check;
   char path[FILES][PAGE_PATH_SIZE];
   bool failed; /* memory was short */
 };
@@ -38,18 +37,18 @@ static void append(struct results *results, json_t *list, json_t *value)
 
 /* ---- pictures ---- */
 
-static void make_pictures(struct results *results)
+enum status check_make_pictures(struct check *check)
 {
-  const struct check *check = results->check;
-  page_png(&check->ours.picture, &results->content[0]);
-  for (size_t k = 0; k < check->row_count && !results->failed; k++) {
-    struct image difference;
-    page_png(&check->row[k].picture.image, &results->content[1 + 2 * k]);
-    results->failed = check_difference(check, &check->row[k], MAGNIFIED, &difference) != STATUS_OK;
-    if (results->failed) return;
-    page_png(&difference, &results->content[2 + 2 * k]);
+  const size_t last = check->row_count - 1;
+  struct text_buffer *file = &check->file[1 + 2 * last];
+  struct image difference;
+  page_png(&check->row[last].picture.image, &file[0]);
+  file[1].failed = check_difference(check, &check->row[last], MAGNIFIED, &difference) != STATUS_OK;
+  if (!file[1].failed) {
+    page_png(&difference, &file[1]);
     image_destroy(&difference);
   }
+  return file[0].failed || file[1].failed ? listener_out_of_memory(check->listener) : STATUS_OK;
 }
 
 void check_file_name(size_t number, char out[CHECK_NAME_SIZE])
@@ -124,7 +123,7 @@ static void add_rows(struct results *results, json_t *rows)
       append(results, percent, json_pack("{s:f}", "value", 100 * (double)row->over[c] / (double)row->result.pixels));
     set(results, value, "percent", percent);
     set(results, value, "codes", json_count((size_t)lround(255 * row->result.max)));
-    set(results, value, "difference", page_of_png(&results->content[2 + 2 * k]));
+    set(results, value, "difference", page_of_png(&results->check->file[2 + 2 * k]));
     set(results, value, "last", json_boolean(k + 1 == results->check->row_count));
   }
 }
@@ -194,9 +193,9 @@ static enum status add_figure(struct results *results, json_t *root)
 
 static enum status make_page(struct results *results, const char *verdict, struct text_buffer *out_text)
 {
-  const struct check *check = results->check;
+  struct check *check = results->check;
   const struct check_request *request = check->request;
-  const struct text_buffer *theirs = &results->content[1 + 2 * (check->row_count - 1)];
+  const struct text_buffer *theirs = &check->file[1 + 2 * (check->row_count - 1)];
   json_t *root = json_join(check_json(check), page_of_head(request->command_line));
   set(results, root, "verdict", json_string(verdict));
   set(results, root, "width", json_count(request->width));
@@ -204,7 +203,7 @@ static enum status make_page(struct results *results, const char *verdict, struc
   set(results, root, "grid", request->grid == 0 ? json_null() : json_count(request->grid));
   set(results, root, "limit", json_real(255 * request->fail.each));
   set(results, root, "magnified", json_real(MAGNIFIED));
-  set(results, root, "ours", page_of_png(&results->content[0]));
+  set(results, root, "ours", page_of_png(&check->file[0]));
   set(results, root, "theirs", page_of_png(theirs));
   set(results, root, "last_name",
       json_copy(json_object_get(json_array_get(json_object_get(root, "rows"), check->row_count - 1), "name")));
@@ -214,7 +213,7 @@ static enum status make_page(struct results *results, const char *verdict, struc
   add_worst(results, json_object_get(root, "worst"));
   const enum status status = add_figure(results, root);
   fill_template(out_text, TEMPLATE_CHECK_TABLE, root);
-  fill_template(&results->content[FILE_PAGE], TEMPLATE_CHECK_PAGE, root);
+  fill_template(&check->file[FILE_PAGE], TEMPLATE_CHECK_PAGE, root);
   json_decref(root);
   return status;
 }
@@ -225,22 +224,21 @@ static void make_json(struct results *results)
   char *text = json_text(root, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
   json_decref(root);
   results->failed = results->failed || text == NULL;
-  text_buffer_format(&results->content[FILE_JSON], "%s\n", text == NULL ? "" : text);
+  text_buffer_format(&results->check->file[FILE_JSON], "%s\n", text == NULL ? "" : text);
   free(text);
 }
 
-enum status check_write(const struct check *check, const char *verdict, struct text_buffer *out_text)
+enum status check_write(struct check *check, const char *verdict, struct text_buffer *out_text)
 {
   struct results *results = calloc(1, sizeof *results);
   if (results == NULL) return listener_out_of_memory(check->listener);
   results->check = check;
   name_files(results);
-  make_pictures(results);
+  page_png(&check->ours.picture, &check->file[0]);
   make_json(results);
   enum status status = results->failed ? STATUS_OK : make_page(results, verdict, out_text);
-  results->content[FILE_PAGE].failed = results->content[FILE_PAGE].failed || results->failed || out_text->failed;
-  if (status == STATUS_OK) status = page_write(check->listener, FILES, results->path, results->content);
-  for (size_t k = 0; k < FILES; k++) text_buffer_free(&results->content[k]);
+  check->file[FILE_PAGE].failed = check->file[FILE_PAGE].failed || results->failed || out_text->failed;
+  if (status == STATUS_OK) status = page_write(check->listener, FILES, results->path, check->file);
   free(results);
   return status;
 }

@@ -85,7 +85,7 @@ static struct check check_of(size_t width, size_t height, size_t grid)
 
 static void free_check(struct check *check)
 {
-  for (size_t k = 0; k < check->row_count; k++) check_row_free(&check->row[k]);
+  for (size_t k = 0; k < check->row_count; k++) image_destroy(&check->row[k].picture.image);
   text_buffer_free(&check->warnings);
   image_destroy(&check->ours.picture);
 }
@@ -147,6 +147,8 @@ static void own_text_is_as_written(void **state)
       assert_int_equal(check_measure_row(&check, steps), STATUS_OK);
       assert_true(check.row[steps].result.max == (own && steps == 0));
     }
+    /* a picture is kept until the next row */
+    assert_true(check.row[1].picture.image.value == NULL && check.row[2].picture.image.value != NULL);
     assert_int_equal(check.warnings.length, 1);
     free_check(&check);
   }

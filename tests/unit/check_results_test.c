@@ -61,6 +61,19 @@ static struct check_row row_of(size_t steps, size_t number, float value)
   return row;
 }
 
+static void add_row(struct check *check, struct check_row row)
+{
+  check->row[check->row_count++] = row;
+  assert_int_equal(check_make_pictures(check), STATUS_OK);
+}
+
+static void free_check(struct check *check)
+{
+  image_destroy(&check->row[check->row_count - 1].picture.image);
+  for (size_t k = 0; k < CHECK_FILES; k++) text_buffer_free(&check->file[k]);
+  image_destroy(&check->ours.picture);
+}
+
 static void everything_is_in_its_place(void **state)
 {
   (void)state;
@@ -74,14 +87,15 @@ static void everything_is_in_its_place(void **state)
                                         .fail = {0.5, 100, 3, INFINITY},
                                         .fail_psnr = 40,
                                         .fail_mask = 200};
-  struct check check = {
-    .request = &request, .row_count = ROWS, .worst_count = 2, .ours = {.pixel = pixels, .time = {3.5, 4.5}}};
+  struct check check = {.request = &request, .worst_count = 2, .ours = {.pixel = pixels, .time = {3.5, 4.5}}};
   struct text_buffer table = {0};
-  check.row[0] = row_of(0, 30, 0.5f), check.row[1] = row_of(3, 1, 0.75f);
-  check.row[1].over[2] = 0;
   text_buffer_add_text(&check.warnings, "warning");
   assert_int_equal(image_create(WIDTH, HEIGHT, 3, &check.ours.picture), STATUS_OK);
   image_pixel(&check.ours.picture, 2, 1)[0] = 1;
+  add_row(&check, row_of(0, 30, 0.5f));
+  image_destroy(&check.row[0].picture.image); /* as the next row does */
+  add_row(&check, row_of(3, 1, 0.75f));
+  check.row[1].over[2] = 0;
   for (size_t k = 0; k < WIDTH * HEIGHT; k++) pixels[k].hit.patch = HIT_NONE;
   pixels[WIDTH + 2] = (struct check_pixel){
     {.patch = 9, .u = 0.25, .v = 0.75, .certainty = CERTAINTY_GRAZING}, 4, 1, CHECK_EDGE_CREASE};
@@ -122,9 +136,9 @@ static void everything_is_in_its_place(void **state)
   expect_json(json_object_get(last, "codes"), "51");
   expect_json(json_object_get(last, "last"), "true");
   expect_json(json_object_get(drawn, "last_name"), "\"u_steps 3\"");
-  expect_json(json_object_get(drawn, "ours"), "\"data:image/png;base64,MA==\"");   /* of 0 */
-  expect_json(json_object_get(drawn, "theirs"), "\"data:image/png;base64,Mw==\""); /* of 3 */
-  expect_json(json_object_get(last, "difference"), "\"data:image/png;base64,NA==\"");
+  expect_json(json_object_get(drawn, "ours"), "\"data:image/png;base64,NA==\"");   /* of 4 */
+  expect_json(json_object_get(drawn, "theirs"), "\"data:image/png;base64,Mg==\""); /* of 2 */
+  expect_json(json_object_get(last, "difference"), "\"data:image/png;base64,Mw==\"");
   for (size_t k = 0; k < CHECK_EDGES; k++) {
     const json_t *spot = json_array_get(json_object_get(drawn, "spots"), CHECK_EDGES - 1 - k);
     assert_int_equal(json_integer_value(json_object_get(spot, "count")), 7 + k);
@@ -132,8 +146,8 @@ static void everything_is_in_its_place(void **state)
   expect_json(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "our_color"), "\"255 0 0\"");
   expect_json(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "their_color"), "\"191 191 191\"");
 
-  /* Ours, two of each row, the map; then for each worst pixel a crop of ours, of theirs and of their difference. */
-  static const float firsts[] = {0, 0.5f, 8, 0.75f, 12}, middles[] = {1, 0.75f, 4, 0, 0.75f, 12};
+  /* Two of each row, ours, the map; then for each worst pixel a crop of ours, of theirs and of their difference. */
+  static const float firsts[] = {0.5f, 8, 0.75f, 12, 0}, middles[] = {1, 0.75f, 4, 0, 0.75f, 12};
   assert_int_equal(pictures, 1 + 2 * ROWS + 1 + 2 * 3);
   for (size_t k = 0; k < 5; k++) assert_true(picture[k].width == WIDTH && picture[k].first == firsts[k]);
   for (size_t k = 0; k < 6; k++) {
@@ -142,8 +156,7 @@ static void everything_is_in_its_place(void **state)
   }
   text_buffer_free(&table), text_buffer_free(&check.warnings);
   json_decref(numbers), json_decref(drawn);
-  for (size_t k = 0; k < ROWS; k++) image_destroy(&check.row[k].picture.image);
-  image_destroy(&check.ours.picture);
+  free_check(&check);
 }
 
 /* There is no figure without distances, or if none of POV-Ray's finer pictures has a differing pixel. */
@@ -153,11 +166,11 @@ static void what_is_not_there_is_left_out(void **state)
   static struct check_pixel pixels[WIDTH * HEIGHT];
   const struct check_request request = {
     .path = "scene", .folder = "out", .command_line = "", .own_text = true, .width = WIDTH, .height = HEIGHT};
-  struct check check = {.request = &request, .row_count = 1, .ours = {.pixel = pixels}};
+  struct check check = {.request = &request, .ours = {.pixel = pixels}};
   struct text_buffer table = {0};
-  check.row[0] = row_of(0, 30, 0.5f);
   assert_int_equal(image_create(WIDTH, HEIGHT, 3, &check.ours.picture), STATUS_OK);
   pictures = 0;
+  add_row(&check, row_of(0, 30, 0.5f));
   drawn = NULL;
   assert_int_equal(check_write(&check, "verdict", &table), STATUS_OK);
   assert_null(drawn);
@@ -167,8 +180,7 @@ static void what_is_not_there_is_left_out(void **state)
   assert_null(json_object_get(json_array_get(json_object_get(numbers, "rows"), 0), "distances"));
   text_buffer_free(&table);
   json_decref(numbers);
-  image_destroy(&check.row[0].picture.image);
-  image_destroy(&check.ours.picture);
+  free_check(&check);
 }
 
 int main(void)
