@@ -22,7 +22,7 @@ struct request {
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_TEXT("output", 'o', output, "picture of the absolute differences, .png or .exr", "DIFF"),
-  COMMAND_NUMBER("scale", scale, "factor of the differences in that picture; default 1", "S"),
+  COMMAND_POSITIVE("scale", scale, "factor above 0", "factor of the differences in that picture; default 1", "S"),
   COMMAND_TEXT("channels", 0, channels, "only these, by name, with commas: R,G,B,depth", "LIST"),
   COMMAND_NUMBER("fail", fail.each, "a pixel fails beyond this difference; default 1e-6", "E"),
   COMMAND_NUMBER("failpercent", fail.percent, "so many percent of the pixels may; default 0", "P"),

@@ -30,6 +30,7 @@ try pscn compare a.png "$scene"
 try pscn compare a.png
 try pscn compare a.png b.png small.png
 try pscn compare a.png b.png --fail -1
+try pscn compare a.exr a.exr -o diff.exr --scale 0 # infinity times 0 would be no difference, but a NaN
 try pscn compare a.png b.png -o diff.jpg
 try pscn compare a.png b.png -o nowhere/diff.png
 try pscn compare a.png b.png -o diff.exr --fail 1 --scale 2 --quiet
