@@ -132,7 +132,7 @@ static void test_judge(void **state)
   (void)state;
   const struct truth truths[] = {
     {TRUTH_HIT, 2, 0, 4, false},
-    {TRUTH_HIT, 2, 0x1p-54, 4, false},
+    {TRUTH_HIT, 2, 0x1p-52, 4, false},
     {TRUTH_HIT, 2, 0, 4, false},
     {TRUTH_HIT, 2, 0, 4, true},
     {TRUTH_HIT, 2, 0, 4, false},
@@ -143,7 +143,7 @@ static void test_judge(void **state)
   };
   const struct answer answers[] = {
     {2, 4},               /* exact */
-    {2, 4},               /* off by 2^-54 of 2 */
+    {2 + 0x1p-51, 4},     /* off by 2^-52 of 2 */
     {2.001, 5},           /* the right place, another patch */
     {2, 5},               /* on a shared edge: either patch will do */
     {3, 4},               /* wrong */
@@ -163,7 +163,7 @@ static void test_judge(void **state)
   assert_int_equal(j.invented, 1);
   assert_int_equal(j.wrong, 1);
   assert_int_equal(j.other_patch, 1);
-  assert_true(j.median == 0x1p-55);
+  assert_true(j.median == 0x1p-53);
   assert_true(j.max == 0.5 && j.p99 == 0.5);
   assert_true(j.p99_of_all == 1);
   /* Where nothing can be hit, an invented hit leaves no error, and no place on the front. */
@@ -286,7 +286,9 @@ static void test_sweep(void **state)
     assert_non_null(sweep);
     assert_int_equal(point_sweep(quick, sweep), count);
     assert_ptr_equal(sweep[0].options.roots.solver, solver_at(0));
+    size_t whole = 0;
     for (size_t a = 1; a < count; a++) {
+      whole += sweep[a].options.split == 1;
       for (size_t b = a + 1; b < count; b++) {
         bool same = sweep[a].options.roots.solver == sweep[b].options.roots.solver;
         for (size_t k = 0; same && k < method_item_count(); k++)
@@ -294,6 +296,7 @@ static void test_sweep(void **state)
         assert_false(same);
       }
     }
+    assert_int_equal(whole, 1 + 3 * (2 + 2 * powers)); /* with the paper's form */
     free(sweep);
   }
 }
