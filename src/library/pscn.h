@@ -227,8 +227,10 @@ PSCN_API enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t c
 /* How many hits a ray has. `certain`: it is proven that these are all hits, and in the right order. A point of an edge
  * that patches share is one hit where the ray crosses the surface there, and so is a pole. A ray with infinite t_max
  * therefore starts inside a closed surface if `count` is odd, and outside if it is even. Grazing: possible hits are
- * counted too, up to 64, each with its own `certain` 0; or the ray's work ran out, and some hits are not counted. The
- * first of proven hits is that of pscn_nearest, except for last places. */
+ * counted too, up to 64, each with its own `certain` 0; or the ray's work ran out, and some hits are not counted.
+ *
+ * Where this and pscn_nearest are certain, the first hit is the same, except for last places. Where only pscn_nearest
+ * is, its hit may be a possible one here, as in a corner of an open surface, or be missing, if the work ran out. */
 struct pscn_hits {
   size_t count;
   int32_t verdict; /* PSCN_HIT where count > 0 */
