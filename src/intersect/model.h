@@ -245,8 +245,8 @@ void model_make_leaf(const struct model *model, uint32_t number, struct leaf_roo
 /* How far a patch with `split` auto is cut: until its leaves' derivatives turn by at most about `turn` of their size,
  * into at most `any` leaves a side, or `bent` if it is bent all over. coarse[0] replaces `turn` where there would be
  * more leaves than a picture shows, coarse[1] where there still were four times as many. Where leaves are thicker than
- * they are apart, patches are cut finer (prepare/crowd.h), up to `leaves` a patch on average. Choices of speed, not of
- * correctness. */
+ * they are apart, patches are cut finer (prepare/crowd.h), up to `leaves` a patch on average; a long patch aslant to
+ * the axes, up to `leaves`. Choices of speed, not of correctness. */
 enum { COARSER = 2 };
 struct split_limit {
   double turn, coarse[COARSER];

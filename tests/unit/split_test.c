@@ -59,6 +59,9 @@ static double cone(struct random *random, int i, int j)
   return i / 3.0 * 0.5 * pointed * (j == 1 || j == 2);
 }
 
+/* Whether patches lie aslant to all axes: what goes along y goes along all of them. */
+static bool aslant;
+
 /* How the first and the middle one of `count` patches are cut. All have this height and length, and follow each other
  * by `apart` along x and z. If z is NULL, their points are random in a cube. */
 static void cut_of(height *z, double length, size_t count, const double apart[2], int split[2], int middle[2])
@@ -77,6 +80,7 @@ static void cut_of(height *z, double length, size_t count, const double apart[2]
       x[1] = z ? length * (n % 4 / 3.0 - 0.5) * (pointed > 0 ? pointed * (n / 4 / 3.0) : 1)
                : random_between(&random, -1, 1);
       x[2] = z ? z(&random, n / 4, n % 4) + apart[1] * (double)p : random_between(&random, -1, 1);
+      if (aslant) x[0] += x[1], x[2] += x[1];
     }
   }
   assert_int_equal(model_create(&scene, NULL, &model), STATUS_OK);
@@ -170,6 +174,29 @@ static void rods_are_cut_across(void **state)
   }
 }
 
+/* The boxes of a long patch aslant to the axes are mostly air. So it is cut along its long side, until its leaves are
+ * about as long as wide, or are 64; but not into more than a quarter of a million leaves in all. */
+static void long_patches_aslant_are_cut_along(void **state)
+{
+  (void)state;
+  enum { MANY = 20000 };
+  static const double lengths[] = {6, 15, 30, 1000, 1e5};
+  height *const heights[] = {flat, gutter};
+  for (size_t k = 0; k < 2 * sizeof lengths / sizeof lengths[0]; k++) {
+    const double length = lengths[k / 2];
+    int straight[2], split[2], many[2], middle[2];
+    cut_of(heights[k % 2], length, 1, (double[2]){0, 0}, straight, middle);
+    aslant = true;
+    cut_of(heights[k % 2], length, 1, (double[2]){0, 0}, split, middle);
+    cut_of(heights[k % 2], length, MANY, (double[2]){0, 0}, many, middle);
+    aslant = false;
+    print_message("%g long: %d x %d, %d x %d of many\n", length, split[0], split[1], many[0], many[1]);
+    assert_int_equal(split[0], straight[0]);
+    assert_in_range(split[1], length < 100 ? (int)(length / 4) : 64, length < 100 ? (int)(2 * length) : 64);
+    assert_in_range(many[0] * many[1], 2, (1 << 18) / MANY);
+  }
+}
+
 /* A cone's side is cut on the way to its pole, although it is straight along it. */
 static void cones_are_cut_before_poles(void **state)
 {
@@ -192,6 +219,7 @@ int main(void)
                                      cmocka_unit_test(patches_side_by_side_are_cut_less),
                                      cmocka_unit_test(sheets_in_a_stack_are_cut_finer),
                                      cmocka_unit_test(rods_are_cut_across),
+                                     cmocka_unit_test(long_patches_aslant_are_cut_along),
                                      cmocka_unit_test(cones_are_cut_before_poles)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,10 +20,14 @@
 #define SLENDER_MOST ((double)SLENDER_SPLIT_MAX * SLENDER_SPLIT_MAX)
 enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 
-/* A rod's side is a patch this many times as long as wide that bends across, as a pipe's quarter does. It is cut into
- * up to ROD_SPLIT_MAX leaves either way; along, too, because the box of a long leaf is mostly air. Choices of speed. */
-#define ROD 4.0
+/* A long patch is this many times as long as wide. If it bends across, as a pipe's quarter does, it is cut into up to
+ * ROD_SPLIT_MAX leaves either way. Choices of speed. */
+#define LONG 4.0
 enum { ROD_SPLIT_MAX = 2 };
+
+/* The box of a long leaf aslant to the axes is mostly air. A long patch is cut along as long as that leaves no more than
+ * this part of its boxes' surface, by which the visits of rays grow. A choice of speed. */
+#define LESS_AIR (2.0 / 3)
 
 /* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
 #define LEAST_SCALE 0x1p-1000
@@ -105,8 +109,47 @@ static int rod_split(const struct split_limit *limit, const struct patch_part *w
   const int side = whole->first[1] > whole->first[0];
   const double along = whole->first[side], across = whole->first[1 - side], bend = whole->second[2 * (1 - side)];
   int split = 1;
-  while (split < ROD_SPLIT_MAX && along > ROD * across && bend > 2 * limit->turn * split * across) split *= 2;
+  while (split < ROD_SPLIT_MAX && along > LONG * across && bend > 2 * limit->turn * split * across) split *= 2;
   return split;
+}
+
+/* How far the lines of the net that run along `side` go along each axis, on average. */
+static void net_reach(const struct model_patch *patch, int side, double out[3])
+{
+  for (int k = 0; k < 3; k++) {
+    double sum = 0;
+    for (int n = 0; n < 12; n++) {
+      const int i = n / 4, j = n % 4;
+      sum += side == 0 ? fabs(patch->x[k][i + 1][j] - patch->x[k][i][j])
+                       : fabs(patch->x[k][j][i + 1] - patch->x[k][j][i]);
+    }
+    out[k] = sum / 4;
+  }
+}
+
+/* The surface, up to a factor, of the boxes of all leaves, if a patch that reaches so far either way is cut into
+ * m x n. */
+static double boxes_surface(double reach[2][3], int m, int n)
+{
+  double box[3];
+  for (int k = 0; k < 3; k++) box[k] = reach[0][k] / m + reach[1][k] / n;
+  return m * n * (box[0] * box[1] + box[1] * box[2] + box[2] * box[0]);
+}
+
+static void long_split(const struct model_patch *patch, const struct split_limit *limit, const struct patch_part *whole,
+                       uint16_t split[2])
+{
+  const int side = whole->first[1] > whole->first[0];
+  const double most = real_max(limit->any * limit->any, limit->leaves);
+  double reach[2][3];
+  if (!(whole->first[side] > LONG * whole->first[1 - side])) return;
+  for (int k = 0; k < 2; k++) net_reach(patch, k, reach[k]);
+  while (2 * split[side] <= SLENDER_SPLIT_MAX && 2 * split[0] * split[1] <= most) {
+    const int finer[2] = {split[0] << (side == 0), split[1] << (side == 1)};
+    const double now = boxes_surface(reach, split[0], split[1]);
+    if (!(boxes_surface(reach, finer[0], finer[1]) <= LESS_AIR * now)) return;
+    split[side] = (uint16_t)finer[side];
+  }
 }
 
 /* A cone's side ends in a pole and bends across the way there. It is cut into at least this many leaves on that way,
@@ -134,6 +177,7 @@ static void auto_split(const struct model_patch *patch, const struct split_limit
   for (int k = 0; k < 2; k++)
     if (split[k] < rod && split[1 - k] * rod <= limit->any * limit->any) split[k] = (uint16_t)rod;
   cone_split(patch, limit, &whole, split);
+  long_split(patch, limit, &whole, split);
 }
 
 /* How the patch's solver works on lanes: with the whole method as it is by default, or not at all. */
