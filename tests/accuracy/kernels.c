@@ -22,10 +22,10 @@ struct count {
   size_t verdict, certainty, patch; /* these differ between kernels */
   size_t place;                     /* T differs by more than DIFFERENT: not only the last bits of certain hits */
   size_t bits;                      /* T, U or V differ at all */
-  size_t company,
-    occlusion;  /* an answer depends on the rays beside it; any hit is found where no closest hit is, or the reverse */
-  size_t tied;  /* it does, in its last places, with another hit at hand */
-  double worst; /* the largest difference of T in floors, of two certain hits */
+  size_t company;                   /* an answer depends on the rays beside it */
+  size_t occlusion;                 /* any hit is found where no closest hit is, or the reverse */
+  size_t tied;                      /* it does, in its last places, with another hit at hand */
+  double worst;                     /* the largest difference of T in floors, of two certain hits */
 };
 
 /* T of certain answers may differ by this many floors: of one rounding of the inputs or of the patch's extent. */

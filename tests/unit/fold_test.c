@@ -90,8 +90,8 @@ static void what_a_bent_combination_tells_is_so(void **state)
     const double part = (random_bits(&random) % 2 ? 1 : -1) * pow(10, random_between(&random, -2, 3));
     const double slope = pow(10, random_between(&random, -3, 0));
     double product[4][4] = {{0}}, bent[4][4] = {{0}}, m[3];
-    const bool along = random_bits(&random) %
-                       2; /* the other line is parallel to this one: a is extremal in the middle */
+    /* whether the other line is parallel to this one, so that a is extremal in the middle */
+    const bool along = random_bits(&random) % 2;
     for (int k = 0; k < 3; k++)
       m[k] = slope * (along ? (k > 0 ? line[k] : -line[k]) : random_between(&random, -1, 1) * (k > 0 ? 1 : middle));
     product[0][0] = m[0] * line[0], product[1][0] = m[0] * line[1] + m[1] * line[0];

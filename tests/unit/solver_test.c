@@ -346,8 +346,8 @@ static void small_beside_large(void **state)
 {
   (void)state;
   const double s = 0x1p-430, root[] = {s, 2.0 * s, 1.0, -3.0, 1.0 / s};
-  const double q[] = {0.0, -6.0 * s * s, 9.0 * s, -3.0,
-                      2.0, 1.0,          0.0}; /* x times the polynomial of the four small roots */
+  /* x times the polynomial of the four small roots */
+  const double q[] = {0.0, -6.0 * s * s, 9.0 * s, -3.0, 2.0, 1.0, 0.0};
   double c[6];
   for (int k = 0; k < 6; k++) c[k] = q[k] - q[k + 1] / s;
   for (size_t i = 0; i < solver_count(); i++) {

@@ -50,8 +50,8 @@ static void sines_and_cosines_are_right_to_their_bound(void **state)
     const double error = (double)quad_abs(value(t.A[0][1]) / sine(degrees) - 1);
     if (error > worst) worst = error;
     assert_true(value(t.A[1][0]) == -value(t.A[0][1]) && value(t.A[0][0]) == value(t.A[1][1]));
-    if (rest == 0 || rest + fabs(degrees) != 90 || 90 - rest != fabs(degrees))
-      continue; /* the difference was rounded */
+    const bool rounded = rest + fabs(degrees) != 90 || 90 - rest != fabs(degrees);
+    if (rest == 0 || rounded) continue;
     const double other = (double)quad_abs(value(t.A[0][0]) / sine(rest) - 1);
     if (other > worst) worst = other;
   }

@@ -155,7 +155,9 @@ static enum status prepare(struct model *model, const struct team *team)
     limit.leaves = most_leaves(own, OBJECT_LEAVES_MAX);
   }
   status = copies_prepare(model, team, &limit);
-  if (!keep) limit = (struct split_limit){BOXES_TURN, {BOXES_TURN, BOXES_TURN}, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX, 0};
+  if (!keep)
+    limit = (struct split_limit){
+      BOXES_TURN, {BOXES_TURN, BOXES_TURN}, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX * BOXES_SPLIT_MAX};
   return status == STATUS_OK ? hierarchy_make(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
 }
 

@@ -127,28 +127,28 @@ static void net_reach(const struct model_patch *patch, int side, double out[3])
   }
 }
 
-/* The surface, up to a factor, of the boxes of all leaves, if a patch that reaches so far either way is cut into
- * m x n. */
-static double boxes_surface(double reach[2][3], int m, int n)
+/* The surface, up to a factor, of the boxes of all leaves, if a patch that reaches so far either way is cut so. */
+static double boxes_surface(double reach[2][3], const uint16_t split[2])
 {
   double box[3];
-  for (int k = 0; k < 3; k++) box[k] = reach[0][k] / m + reach[1][k] / n;
-  return m * n * (box[0] * box[1] + box[1] * box[2] + box[2] * box[0]);
+  for (int k = 0; k < 3; k++) box[k] = reach[0][k] / split[0] + reach[1][k] / split[1];
+  return split[0] * split[1] * (box[0] * box[1] + box[1] * box[2] + box[2] * box[0]);
 }
 
 static void long_split(const struct model_patch *patch, const struct split_limit *limit, const struct patch_part *whole,
                        uint16_t split[2])
 {
   const int side = whole->first[1] > whole->first[0];
-  const double most = real_max(limit->any * limit->any, limit->leaves);
   double reach[2][3];
   if (!(whole->first[side] > LONG * whole->first[1 - side])) return;
   for (int k = 0; k < 2; k++) net_reach(patch, k, reach[k]);
-  while (2 * split[side] <= SLENDER_SPLIT_MAX && 2 * split[0] * split[1] <= most) {
-    const int finer[2] = {split[0] << (side == 0), split[1] << (side == 1)};
-    const double now = boxes_surface(reach, split[0], split[1]);
-    if (!(boxes_surface(reach, finer[0], finer[1]) <= LESS_AIR * now)) return;
-    split[side] = (uint16_t)finer[side];
+  double surface = boxes_surface(reach, split);
+  while (2 * split[side] <= SLENDER_SPLIT_MAX && 2 * split[0] * split[1] <= limit->leaves) {
+    uint16_t finer[2] = {split[0], split[1]};
+    finer[side] = (uint16_t)(2 * finer[side]);
+    const double of_finer = boxes_surface(reach, finer);
+    if (!(of_finer <= LESS_AIR * surface)) return;
+    split[side] = finer[side], surface = of_finer;
   }
 }
 

@@ -206,6 +206,7 @@ static enum status build_inner(const struct building *b, int depth, const struct
 /* Whether all in that box lies exactly on something earlier in the scene, whose hit is then the nearest. */
 static bool is_twin(const struct model *model, uint32_t box)
 {
+  if (!model->twin) return false;
   if (box >= model->leaf_count) return model->copies[box - model->leaf_count].twin;
   return model->twin[model->leaves ? model->leaves[box].patch : model->places[box].patch];
 }
@@ -214,11 +215,11 @@ static bool is_twin(const struct model *model, uint32_t box)
 static size_t twins_last(const struct model *model, uint32_t index[], size_t count)
 {
   size_t others = 0;
-  for (size_t k = 0; k < count && model->twin; k++) {
+  for (size_t k = 0; k < count; k++) {
     const uint32_t here = index[k];
     if (!is_twin(model, here)) index[k] = index[others], index[others++] = here;
   }
-  return model->twin ? others : count;
+  return others;
 }
 
 /* Builds a tree of boxes[index[0..count-1]], within `depth` others, in a frame of size `frame` about `middle`, which is
