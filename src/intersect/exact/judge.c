@@ -33,6 +33,29 @@ static void look_across(const struct model *model, uint32_t patch, struct ray *r
   ray->direction[plane->axis] = copysign(1, away);
 }
 
+/* How many rows of the net, from that border on, are in its first point. Of a patch that is one point, three. */
+static int rows_in_point(double (*P)[4][3], int border)
+{
+  const double *net = P[0][0], *point = net + 3 * edge_at(border, 0);
+  for (int row = 1; row < 3; row++) {
+    for (int n = 0; n < 4; n++) {
+      const double *x = net + 3 * (edge_at(border, n) + row * edge_inward(border));
+      if (x[0] != point[0] || x[1] != point[1] || x[2] != point[2]) return row;
+    }
+  }
+  return 3;
+}
+
+static void set_zeros(struct judge *j)
+{
+  double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
+  for (int k = 0; k < 4; k++) {
+    const int at = edge_at(k, 0);
+    const bool met = j->prepared->pole[k] && judge_passes(&j->ray, P[at / 4][at % 4]);
+    j->zeros[k] = met ? rows_in_point(P, k) : 0;
+  }
+}
+
 void judge_turn(struct judge *j, uint32_t patch)
 {
   if (j->patch == patch) return;
@@ -41,6 +64,7 @@ void judge_turn(struct judge *j, uint32_t patch)
   j->ray = *j->asked->ray;
   look_across(j->asked->model, patch, &j->ray);
   local_ray_make(j->prepared, &j->ray, &j->local);
+  set_zeros(j);
 }
 
 struct zoom *judge_zoom(struct judge *j)
@@ -297,16 +321,20 @@ static bool tell_point(struct judge *j, const struct net_point *at, unsigned bor
   return true;
 }
 
-bool judge_pole(struct judge *j, int border, double reach)
+void judge_pole_met(struct judge *j, int border)
 {
   const struct net_point at = pole_point(border);
-  if (tell_point(j, &at, 1u << border)) return true;
+  (void)tell_point(j, &at, 1u << border); /* always */
+}
+
+void judge_pole(struct judge *j, int border, double reach)
+{
+  const struct net_point at = pole_point(border);
   const struct zoom *zoom = judge_zoom(j);
   const double t = (double)((j->prepared->x[zoom->axis][at.row][at.column] - zoom->origin) * zoom->to_t);
   const double t_error = 16 * UNIT_ROUNDOFF * fabs(t) + ZOOM_POLE_REACH * zoom->depth_error * fabs((double)zoom->to_t);
   const struct exact_maybe maybe = {j->patch, 1u << border, at.u, at.v, t, t_error};
   keep_maybe(j, &maybe, t - t_error - reach, false);
-  return false;
 }
 
 bool judge_corner(const struct judge *j, unsigned borders, const struct exact_root *root, struct exact_root *out)

@@ -60,6 +60,8 @@ struct judge {
   struct ray ray;
   struct model_patch *prepared; /* in `room` if the model does not keep it */
   struct patch_room room;
+  int zeros
+    [4]; /* rows of its net, from each border (geometry/edges.h) on, that are one point which the ray meets exactly */
   bool zoomed; /* `zoom` is set */
   struct zoom zoom;
   struct local_ray local;
@@ -97,9 +99,12 @@ struct zoom *judge_zoom(struct judge *j);
 /* Tells of a proven root, anywhere on the patch or around it. */
 void judge_root(struct judge *j, struct exact_root *root);
 
-/* Tells that the ray meets a border that is one point, as far as wide arithmetic can tell. Returns whether it does so
- * exactly. If not, the search tells nothing of what is next to the point; that begins at most `reach` before it. */
-bool judge_pole(struct judge *j, int border, double reach);
+/* Tells that the ray meets a border that is one point exactly (`zeros`). */
+void judge_pole_met(struct judge *j, int border);
+
+/* Tells that it meets one as far as wide arithmetic can tell, but not exactly. The search tells nothing of what is next to
+ * the point; that begins at most `reach` before it. */
+void judge_pole(struct judge *j, int border, double reach);
 
 /* Tells that (u,v), with t known to t_error, may be on the ray. What the point stands for begins at `from` or
  * behind. */

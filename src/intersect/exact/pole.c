@@ -28,14 +28,33 @@ enum { ZOOM_DEPTH = 12 };
  * border is known no better than the direction in which the ray passes the pole. A choice of speed. */
 #define NARROW_AT_POLE 0x1p-5
 
-int pole_of_box(const struct search *s, const struct box *box)
+/* Which of the box's borders are one point. */
+static void poles_of_box(const struct search *s, const struct box *box, bool out[4])
 {
   const bool at[4] = {box->u == 0, box->u + box->size_u == 1, box->v == 0, box->v + box->size_v == 1};
+  for (int k = 0; k < 4; k++) out[k] = s->pole[k] && at[k];
+}
+
+int pole_of_box(const struct search *s, const struct box *box)
+{
+  bool at[4];
   int pole = NO_BORDER;
+  poles_of_box(s, box, at);
   for (int k = 0; k < 4; k++)
-    if (s->pole[k] && at[k]) pole = pole == NO_BORDER ? k : TWO_BORDERS;
+    if (at[k] && s->window.judge->zeros[k] == 0) pole = pole == NO_BORDER ? k : TWO_BORDERS;
   return pole;
 }
+
+bool pole_zeros(const struct search *s, const struct box *box, int out[4])
+{
+  bool at[4], any = false;
+  poles_of_box(s, box, at);
+  for (int k = 0; k < 4; k++) out[k] = at[k] ? s->window.judge->zeros[k] : 0, any |= out[k] > 0;
+  return any;
+}
+
+/* How far the box reaches from the border, as a part of the search's whole box. */
+static double reach_from(const struct box *box, int border) { return border < 2 ? box->size_u : box->size_v; }
 
 bool pole_narrow(const struct search *s, const struct box *box)
 {
@@ -43,8 +62,15 @@ bool pole_narrow(const struct search *s, const struct box *box)
   return (double)(s->divided < 2 ? s->window.size[1] * box->size_v : s->window.size[0] * box->size_u) <= NARROW_AT_POLE;
 }
 
-/* How far the box reaches from the border, as a part of the search's whole box. */
-static double reach_from(const struct box *box, int border) { return border < 2 ? box->size_u : box->size_v; }
+bool pole_asks_zoom(const struct search *s, const struct box *box)
+{
+  int zeros[4];
+  double reach = 0;
+  if (!pole_zeros(s, box, zeros) || s->window.zooms >= ZOOM_DEPTH) return false;
+  for (int k = 0; k < 4; k++)
+    if (zeros[k] > 0) reach = real_max(reach, reach_from(box, k));
+  return reach <= ZOOM_AGAIN_POLE;
+}
 
 /* Whether to zoom the box: as soon as it is near enough to the pole, and again whenever it has become small. */
 static bool asks_zoom(const struct search *s, const struct box *box, int border)
@@ -88,7 +114,8 @@ bool pole_zoom(struct search *s, const struct box *box, int border)
   const bool done = zoom_pole_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, border, &zoomed,
                                   &pole);
   const double reach = done ? met_reach(&closer.window, &zoomed, border) : 0;
-  closer.met = pole == POLE_MET && !judge_pole(s->window.judge, border, reach);
+  closer.met = pole == POLE_MET;
+  if (closer.met) judge_pole(s->window.judge, border, reach);
   s->dependent |= !done;
   if (!done) return false;
   closer.divided = border;
@@ -150,8 +177,11 @@ double pole_told_from(const struct search *s, const struct box *box)
 
 bool pole_far(const struct search *s, const struct box *box, const double root[2])
 {
-  if (s->divided < 0) return true;
   const double u = box->u + box->size_u * root[0], v = box->v + box->size_v * root[1];
   const double distance[4] = {u, 1 - u, v, 1 - v};
-  return CERTIFICATE_SLOPES * distance[s->divided] >= reach_from(box, s->divided);
+  int zeros[4];
+  (void)pole_zeros(s, box, zeros); /* or there are none */
+  for (int k = 0; k < 4; k++)
+    if ((k == s->divided || zeros[k] > 0) && CERTIFICATE_SLOPES * distance[k] < reach_from(box, k)) return false;
+  return true;
 }

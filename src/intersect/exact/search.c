@@ -113,13 +113,26 @@ static bool box_zoom(struct search *s, const struct box *box)
 {
   struct search closer = search_closer(s, box);
   struct zoomed zoomed;
+  int zeros[4];
+  (void)pole_zeros(s, box, zeros); /* or there are none */
   judge_spend(s->window.judge, WORK_ZOOM);
-  if (!zoom_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, &zoomed)) {
+  if (!zoom_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, zeros, &zoomed)) {
     s->dependent = true;
     return false;
   }
   search_run_closer(&closer, &zoomed);
   return true;
+}
+
+/* Searches a box at poles that the ray meets exactly by itself, zoomed: there both polynomials are divided by the distance
+ * from the poles. Returns whether it did. */
+static bool box_zoom_met(struct search *s, const struct box *box)
+{
+  int zeros[4];
+  if (s->window.zooms > 0 || s->dependent || !pole_zeros(s, box, zeros)) return false;
+  for (int k = 0; k < 4; k++)
+    if (zeros[k] > 0) judge_pole_met(s->window.judge, k);
+  return box_zoom(s, box);
 }
 
 /* Whether to zoom a box that double precision cannot decide. If a combination is flat on it: once, and again when it is
@@ -178,17 +191,18 @@ static bool box_decide(struct search *s, struct box *box)
     const enum pole_box pole = pole_decide(s, box);
     if (pole != POLE_BOX_OPEN) return pole == POLE_BOX_DECIDED;
   }
-  if (pole_zoom(s, box, border)) return true;
+  if (box_zoom_met(s, box) || pole_zoom(s, box, border)) return true;
   double error[2];
   search_box_error(s, box, error);
   const enum verdict verdict = box_test(box, error);
   if (verdict == VERDICT_EMPTY || (s->dependent && s->window.zooms == 0 && box_flat(s, box, error))) return true;
   double root[2] = {0.5, 0.5}, radius[2];
-  if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius) && pole_far(s, box, root)) {
+  if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius)) {
     struct exact_root found = window_root(&s->window, box, root, radius);
-    if (root_asks_zoom(s, &found, border) && box_zoom(s, box)) return true;
-    judge_root(s->window.judge, &found);
-    return true;
+    const bool far = pole_far(s, box, root), zoomed = far ? root_asks_zoom(s, &found, border) : pole_asks_zoom(s, box);
+    if (zoomed && box_zoom(s, box)) return true;
+    if (far) judge_root(s->window.judge, &found);
+    if (far) return true;
   }
   bool bent_flat = false;
   if (!s->dependent && window_touched(&s->window, box, error, s->window.zooms == 0 && border == NO_BORDER, &bent_flat))

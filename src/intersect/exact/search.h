@@ -38,11 +38,19 @@ void search_run_closer(struct search *closer, const struct zoomed *zoomed);
 
 /* ---- pole.c ---- */
 
-/* The border that is one point and on which the box lies; NO_BORDER for none, TWO_BORDERS for several. */
+/* The border that is one point which the ray does not meet exactly, and on which the box lies; NO_BORDER for none,
+ * TWO_BORDERS for several. */
 int pole_of_box(const struct search *s, const struct box *box);
+
+/* How often both polynomials are exactly 0 along the box's borders: those that are one point which the ray meets.
+ * Returns whether there is one. */
+bool pole_zeros(const struct search *s, const struct box *box, int out[4]);
 
 /* Whether the box, at the pole of its search, is so narrow along the border that it is halved only towards the pole. */
 bool pole_narrow(const struct search *s, const struct box *box);
+
+/* Whether to zoom again a box at poles that the ray meets exactly, and with a root too near to them (pole_far). */
+bool pole_asks_zoom(const struct search *s, const struct box *box);
 
 /* Searches the box, which lies at that border (pole_of_box), by itself and zoomed, if the pole requires this. Returns
  * whether it did. */
@@ -65,7 +73,7 @@ void pole_add_error(const struct search *s, double distance, double error[2]);
 double pole_told_from(const struct search *s, const struct box *box);
 
 /* Whether the root, in the box's parameters, is so far from the search's pole that the certificate holds for the ray's
- * own polynomials. */
+ * own polynomials; or from one that the ray meets exactly, that it is told from the pole itself. */
 bool pole_far(const struct search *s, const struct box *box, const double root[2]);
 
 #endif

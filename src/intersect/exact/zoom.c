@@ -174,10 +174,24 @@ static void set_depth(const struct zoom *zoom, fixed power[4][4], struct zoomed 
   net_of(power, 1 / zoom->unit[2], out->net[2]);
 }
 
-bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out)
+/* Divides the polynomial in powers of r, which is 0 at r = -1, or 1 if `high`, by r + 1, or r - 1. Its coefficients'
+ * errors sum up to at most three times as much; the coefficients themselves, to no more than those of any box. */
+static void divide_powers(fixed *c, int stride, bool high)
+{
+  const fixed c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride], second = high ? c2 + c3 : c2 - c3;
+  c[0] = high ? c1 + second : c1 - second, c[stride] = second, c[2 * stride] = c3, c[3 * stride] = 0;
+}
+
+bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], const int zeros[4], struct zoomed *out)
 {
   fixed c[3][4][4];
+  double error = 2 * zoom->error;
   box_powers(zoom, low, size, c);
+  for (int border = 0; border < 4; border++) {
+    for (int n = 0; n < zeros[border]; n++, error *= 3)
+      for (int k = 0; k < 8; k++)
+        divide_powers(border < 2 ? &c[k / 4][0][k % 4] : c[k / 4][k % 4], border < 2 ? 4 : 1, border & 1);
+  }
   /* The combination whose first derivatives in the middle are as near to 0 as possible: the larger row of the adjugate
    * Jacobian; and the one across it. Rounded rows are as good, because both combinations are formed with the rounded
    * ones. */
@@ -192,7 +206,7 @@ bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], st
   for (int s = 0; s < 2; s++) {
     fixed combination[4][4];
     zoom_combine(c[0], c[1], rows[s][0], rows[s][1], combination);
-    const double sum = size_sum(combination), error = 2 * zoom->error;
+    const double sum = size_sum(combination);
     if (!(sum > error)) return false;
     net_of(combination, 1 / sum, out->net[s]);
     out->error[s] = error / sum + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
