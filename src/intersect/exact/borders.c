@@ -10,35 +10,54 @@
 #include "geometry/vector.h"
 #include "intersect/exact/judge.h"
 
-/* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent,
+/* The sum of these four or three vectors of the net, each from one point to another and with its weight, in the patch's
+ * frame. Returns the sum of the weights of those that are not exactly 0. */
+static double weighted_sum(const struct model_patch *patch, double (*P)[4][3], int count, const double weight[],
+                           const int from[], const int to[], double out[3])
+{
+  double size = 0;
+  out[0] = out[1] = out[2] = 0;
+  for (int n = 0; n < count; n++) {
+    const double *p = P[from[n] / 4][from[n] % 4], *q = P[to[n] / 4][to[n] % 4];
+    if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) continue;
+    size += weight[n];
+    for (int c = 0; c < 3; c++)
+      out[c] += 3 * weight[n] * (patch->x[c][to[n] / 4][to[n] % 4] - patch->x[c][from[n] / 4][from[n] % 4]);
+  }
+  return size;
+}
+
+static wide along_border(const struct exact_root *root, int border) { return border < 2 ? root->v : root->u; }
+
+/* The side of the border's curve, as seen along d, on which the patch lies at the root: the sign of det(d, tangent,
  * inward), or 0 if that is too small a part of its largest possible value to be sure. The tangent runs along the
- * border's parameter. */
-static int inner_side(struct model_patch *patch, int border, double along, const double d[3])
+ * border's parameter. Next to a pole, or where a handle has no length, derivatives are small, but so are their errors,
+ * for what is exactly 0 has none. `apart`: how far from the root, along the border, the other patch has it. A border may
+ * return to a point of its own, where other parts of the patches meet; but if it does so within that, its tangent is no
+ * longer than second derivatives times that, and no side is sure. */
+static int inner_side(const struct judge *j, const struct exact_root *root, int border, double apart, const double d[3])
 {
   /* Derivatives are right to some units in the last place of the patch's size, 1; this is well above that. */
   static const double sure = 0x1p-40;
-  const double inward = border & 1 ? -1 : 1;
-  double at[2], tangent[3], in[3], normal[3];
-  edge_place(border, along, at);
-  for (int c = 0; c < 3; c++) {
-    const struct patch_jet jet = patch_evaluate(patch->x[c], at[0], at[1]);
-    tangent[c] = border < 2 ? jet.dv : jet.du;
-    in[c] = inward * (border < 2 ? jet.du : jet.dv);
-  }
+  /* How fast the determinant turns along the border, for |d| = 1: 3 times 2 products of a first derivative, at most 6,
+   * and a second one, at most 24 or 36. */
+  static const double turn = 6 * (6 * 24 + 6 * 36);
+  struct patch_room room;
+  const struct model_patch *patch = model_patch_at(j->asked->model, root->patch, &room);
+  double(*P)[4][3] = j->asked->model->scene->patches[root->patch].P;
+  const wide at = along_border(root, border);
+  const double t = (double)at, s = (double)(1 - at), radius = border < 2 ? root->radius_v : root->radius_u;
+  const double across[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t}, along[3] = {s * s, 2 * s * t, t * t};
+  double tangent[3], in[3], normal[3];
+  int on[4], inside[4];
+  for (int n = 0; n < 4; n++) on[n] = edge_at(border, n), inside[n] = on[n] + edge_inward(border);
+  const double size = weighted_sum(patch, P, 3, along, on, on + 1, tangent) *
+                      weighted_sum(patch, P, 4, across, on, inside, in);
   vector_cross(tangent, in, normal);
-  const double side = vector_dot(normal, d), least = sure * fabs(d[dominant_axis(d)]);
+  const double side = vector_dot(normal, d),
+               least = (sure * size + turn * (radius + apart)) * fabs(d[dominant_axis(d)]);
   return side > least ? 1 : side < -least ? -1 : 0;
 }
-
-static double along_border(const struct exact_root *root, int border)
-{
-  return (double)(border < 2 ? root->v : root->u);
-}
-
-/* Places on a border that are no farther apart than this are one. A border may return to a point of its own, where
- * other parts of the patches meet. But if it does so within 2^-50, its tangent there is no longer than second
- * derivatives, 24 a coordinate, times that; with |inward| at most 6 a coordinate, no side of it is sure. */
-#define ONE_PLACE 0x1p-50
 
 /* Roots that may be one hit must have one t: next to the ray's start, wide arithmetic may leave more of t open than its
  * last places. */
@@ -57,12 +76,10 @@ bool judge_across(const struct judge *j, const struct exact_found *a, const stru
   const int here = __builtin_ctz(a->borders), there = __builtin_ctz(b->borders);
   const struct edge_neighbour *other = model_neighbour(model, one->patch, here);
   if (other->patch != two->patch || other->border != there || !one_t(one, two)) return false;
-  const double along = along_border(one, here), along_two = along_border(two, there);
-  if (!(fabs(along - (other->reversed ? 1 - along_two : along_two)) <= ONE_PLACE)) return false;
+  const wide along = along_border(one, here), along_two = along_border(two, there);
+  const double apart = fabs((double)(along - (other->reversed ? 1 - along_two : along_two)));
   const double *d = j->asked->ray->direction;
-  struct patch_room room[2];
-  const int inner = inner_side(model_patch_at(model, one->patch, &room[0]), here, along, d);
-  const int inner_two = inner_side(model_patch_at(model, two->patch, &room[1]), there, along_two, d);
+  const int inner = inner_side(j, one, here, apart, d), inner_two = inner_side(j, two, there, apart, d);
   return inner * inner_two * (other->reversed ? -1 : 1) == -1;
 }
 
