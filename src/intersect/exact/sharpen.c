@@ -41,10 +41,39 @@ double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2]
   return (sum + 1) * zoom->error / unit;
 }
 
-/* A bound on |f_xx| + 2 |f_xy| + |f_yy| of the polynomial with these powers, for x and y up to LEAF_MARGIN beyond the
- * patch. */
-static double second_bound(fixed c[4][4])
+/* Units of x and y (certificate.h): 1, or across a border that is one point, the root's distance from there. */
+struct units {
+  double of[2];
+  int border; /* geometry/edges.h; -1: none */
+};
+
+/* For second_bound: next to that border f is f there, and its terms of degree 1 and more in the distance from it. They
+ * are bounded as far from it as the certificate reaches. */
+static double second_bound_at_pole(fixed c[4][4], const struct units *units)
 {
+  const double r = 1 + 2 * LEAF_MARGIN, power[4] = {1, r, r * r, r * r * r};
+  const double d = units->of[units->border / 2], far = d * (1 + CERTIFICATE_REACH);
+  double sum = 0;
+  for (int j = 0; j < 4; j++) {
+    fixed at[4]; /* a quarter, so that what is moved has room */
+    for (int i = 0; i < 4; i++) at[i] = (units->border < 2 ? c[i][j] : c[j][i]) / 4;
+    for (int n = 0; n < 3; n++)
+      for (int k = 2; k >= n; k--) at[k] += units->border & 1 ? at[k + 1] : -at[k + 1];
+    for (int i = 1; i < 4; i++) {
+      const double size = 4 * fabs(fixed_double(at[i])), by = i == 1 ? 1 : i == 2 ? far : far * far;
+      if (i > 1) sum += i * (i - 1) * d * d * (i == 3 ? far : 1) * power[j] * size;
+      if (j > 0) sum += 2 * i * j * d * by * power[j - 1] * size;
+      if (j > 1) sum += j * (j - 1) * by * far * power[j - 2] * size;
+    }
+  }
+  return sum;
+}
+
+/* A bound on |f_xx| + 2 |f_xy| + |f_yy| of the polynomial with these powers, in these units, for x and y up to
+ * LEAF_MARGIN beyond the patch. */
+static double second_bound(fixed c[4][4], const struct units *units)
+{
+  if (units->border >= 0) return second_bound_at_pole(c, units);
   const double r = 1 + 2 * LEAF_MARGIN, power[4] = {1, r, r * r, r * r * r};
   double sum = 0;
   for (int i = 0; i < 4; i++) {
@@ -66,21 +95,21 @@ static double row_size(const struct zoom *zoom, const wide m[2])
 
 /* A bound on the second derivatives of the row's combination. They are much smaller than those of a and b if these are
  * nearly one. */
-static double row_bend(struct zoom *zoom, const wide m[2])
+static double row_bend(struct zoom *zoom, const wide m[2], const struct units *units)
 {
   const wide most = wide_max(wide_abs(m[0]), wide_abs(m[1]));
   fixed row[4][4];
   zoom_combine(zoom->power[0], zoom->power[1], fixed_from_wide(m[0] / most), fixed_from_wide(m[1] / most), row);
-  return (double)most * second_bound(row) + CERTIFICATE_SECOND * row_size(zoom, m);
+  return (double)most * second_bound(row, units) + CERTIFICATE_SECOND * row_size(zoom, m);
 }
 
 /* Newton's method ends when a step is within rounding, or more than half the one before. It starts within the root's
  * radius, where it converges quadratically except for the first few steps next to a pole. */
 enum { SHARPEN_STEPS = 24 };
 
-/* Newton's method from (x,y): sets where it ends, its last step, and the rows of the inverse Jacobian there. The rows
+/* Newton's method from (x,y): sets where it ends, its last step in x and y, and the rows of the inverse Jacobian there. The rows
  * are wide: next to a pole the whole determinant is small, and so each row is right to its own last places. */
-static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide m[2][2])
+static bool newton(struct zoom *zoom, fixed *x, fixed *y, double out_step[2], wide m[2][2])
 {
   static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN - CERTIFICATE_REACH) / FIXED_UNIT);
   double before = INFINITY;
@@ -93,15 +122,16 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide
     if (determinant == 0) return false;
     const wide inverse = (wide)(1 / FIXED_UNIT) / determinant;
     const wide step_x = (b[2] * a[0] - a[2] * b[0]) * inverse, step_y = (a[1] * b[0] - b[1] * a[0]) * inverse;
-    *out_step = (double)wide_max(wide_abs(step_x), wide_abs(step_y)) * FIXED_UNIT;
-    if (!(*out_step <= 4)) return false;
+    out_step[0] = (double)wide_abs(step_x) * FIXED_UNIT, out_step[1] = (double)wide_abs(step_y) * FIXED_UNIT;
+    const double step = fmax(out_step[0], out_step[1]);
+    if (!(step <= 4)) return false;
     *x -= (fixed)step_x, *y -= (fixed)step_y;
     if (!(fixed_size(*x) <= most && fixed_size(*y) <= most)) return false;
     m[0][0] = b[2] * inverse, m[0][1] = -a[2] * inverse, m[1][0] = -b[1] * inverse, m[1][1] = a[1] * inverse;
     const double size[2] = {row_size(zoom, m[0]) / FIXED_UNIT, row_size(zoom, m[1]) / FIXED_UNIT};
     if (wide_abs(step_x) <= size[0] && wide_abs(step_y) <= size[1]) return true;
-    if (n > 4 && *out_step > before / 2) return true;
-    before = *out_step;
+    if (n > 4 && step > before / 2) return true;
+    before = step;
   }
   return true;
 }
@@ -120,35 +150,73 @@ static void move_root(struct zoom *zoom, wide u, wide v, struct exact_root *root
   root->u = u, root->v = v, root->t = t;
 }
 
+/* What the certificate says of a root. */
+struct proof {
+  struct units units;
+  double bend, step, radius[2], alone; /* radius and alone in x and y */
+};
+
+/* The certificate in these units, for a last step that went to (x,y). Returns whether it holds. */
+static bool prove(struct zoom *zoom, const fixed at[2], const double steps[2], wide m[2][2], struct proof *out)
+{
+  const struct units *units = &out->units;
+  double sizes[2], bends[2], step = 0;
+  for (int k = 0; k < 2; k++) {
+    sizes[k] = row_size(zoom, m[k]) / units->of[k], bends[k] = row_bend(zoom, m[k], units) / units->of[k];
+    step = fmax(step, steps[k] / units->of[k]);
+  }
+  const double size = fmax(sizes[0], sizes[1]), bend = fmax(bends[0], bends[1]);
+  if (!certificate_holds(bend, step, size)) return false;
+  for (int k = 0; k < 2; k++) out->radius[k] = units->of[k] * certificate_radius(bends[k], step + size, sizes[k]);
+  /* The certificate's map contracts as long as bend |w - z| plus rounding is less than 1, where bend is valid. */
+  const double here = fixed_double(fixed_max(fixed_size(at[0]), fixed_size(at[1])));
+  const double valid = units->border >= 0 ? CERTIFICATE_REACH : 1 + 2 * LEAF_MARGIN - here;
+  out->alone = fmin(units->of[0], units->of[1]) * fmax(fmin(0.5 / bend, valid) - 2 * step, 0);
+  return true;
+}
+
+/* The same in units of 1, or of the distance from a border that is one point. */
+static bool prove_somehow(struct zoom *zoom, const fixed at[2], const double steps[2], wide m[2][2], struct proof *out)
+{
+  const fixed one = fixed_from(1);
+  out->units = (struct units){{1, 1}, -1};
+  if (prove(zoom, at, steps, m, out)) return true;
+  for (int border = 0; border < 4; border++) {
+    const int across = border / 2;
+    const fixed from = border & 1 ? one - at[across] : one + at[across];
+    if (!zoom->pole[border] || from <= 0 || from >= one) continue;
+    out->units = (struct units){{1, 1}, border};
+    out->units.of[across] = fixed_double(from);
+    if (prove(zoom, at, steps, m, out)) return true;
+  }
+  return false;
+}
+
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
 {
-  fixed x = fixed_from_wide(2 * root->u - 1), y = fixed_from_wide(2 * root->v - 1);
-  double step, radius[2];
+  fixed at[2] = {fixed_from_wide(2 * root->u - 1), fixed_from_wide(2 * root->v - 1)};
+  double steps[2], radius[2];
   wide m[2][2];
-  if (!newton(zoom, &x, &y, &step, m)) return false;
-  const double sizes[2] = {row_size(zoom, m[0]), row_size(zoom, m[1])}, size = fmax(sizes[0], sizes[1]);
-  const double bends[2] = {row_bend(zoom, m[0]), row_bend(zoom, m[1])}, bend = fmax(bends[0], bends[1]);
-  const wide u = (1 + fixed_wide(x)) / 2, v = (1 + fixed_wide(y)) / 2;
-  if (!certificate_holds(bend, step, size)) {
+  struct proof proof;
+  if (!newton(zoom, &at[0], &at[1], steps, m)) return false;
+  const wide u = (1 + fixed_wide(at[0])) / 2, v = (1 + fixed_wide(at[1])) / 2;
+  if (!prove_somehow(zoom, at, steps, m, &proof)) {
     if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v) move_root(zoom, u, v, root);
     return false;
   }
-  for (int k = 0; k < 2; k++)
-    radius[k] = certificate_radius(bends[k], step + size, sizes[k]) / 2 + (double)WIDE_ROUNDOFF;
+  for (int k = 0; k < 2; k++) radius[k] = proof.radius[k] / 2 + (double)WIDE_ROUNDOFF;
   /* Each enclosure holds one root; it is the same root if the old enclosure holds the new one. */
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))
     return false;
   fixed depth, dx, dy;
-  evaluate(zoom->power[2], x, y, &depth, &dx, &dy);
-  const double rx = 2 * radius[0], ry = 2 * radius[1], reach = rx + ry;
+  evaluate(zoom->power[2], at[0], at[1], &depth, &dx, &dy);
+  const double rx = 2 * radius[0], ry = 2 * radius[1], reach = rx / proof.units.of[0] + ry / proof.units.of[1];
   const double off = fabs(fixed_double(dx)) * rx + fabs(fixed_double(dy)) * ry +
-                     second_bound(zoom->power[2]) * reach * reach;
+                     second_bound(zoom->power[2], &proof.units) * reach * reach;
   root->u = u, root->v = v, root->t = (fixed_wide(depth) / zoom->unit[2] - zoom->origin) * zoom->to_t;
   root->radius_u = radius[0], root->radius_v = radius[1];
-  /* The certificate's map contracts as long as bend |w - z| plus rounding is less than 1, where bend is valid. */
-  const double here = fixed_double(fixed_max(fixed_size(x), fixed_size(y)));
-  root->alone = fmax(fmin(0.5 / bend, 1 + 2 * LEAF_MARGIN - here) / 2 - step, 0);
+  root->alone = proof.alone / 2;
   root->t_error = error_to_t((double)zoom->to_t, off / zoom->unit[2] + zoom->depth_error) +
                   8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
   root->sharp = true;

@@ -98,6 +98,7 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
   for (int n = 0; n < 48; n++)
     reach[n % 3] = fmax(reach[n % 3], fabs(P[n / 12][n / 3 % 4][n % 3] - patch->center[n % 3]) / patch->scale);
   const int k = out->axis = axis_across(ray, reach, patch->scale);
+  memcpy(out->pole, patch->pole, sizeof out->pole);
   unit[2] = unit_for(reach[k]);
   out->error = 0, out->depth_error = rounding / unit[2];
   for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k, unit[2]);

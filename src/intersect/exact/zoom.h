@@ -29,6 +29,7 @@ struct zoom {
   /* bound on the rounding of the scaled a or b on the patch, or of their coefficients over a box */
   double error;
   double depth_error; /* the same for x_k, unscaled */
+  bool pole[4];       /* the patch's borders that are one point */
 };
 
 /* The error of t that an error of x_k makes. Below the normal numbers it is rounded up, with the little that may be
