@@ -16,7 +16,7 @@ static const float DARK = 0.22f; /* brightness of our picture under the map */
 
 /* Whether the distance jumps between two pixels: it changes far more than on the less obliquely seen of the two
  * surfaces. On a smooth surface, the other one is at most a few times as oblique. */
-static bool jumps(const double location[3], const struct check_pixel *a, const struct check_pixel *b)
+static bool jumps(const double location[3], const struct check_sight *a, const struct check_sight *b)
 {
   static const double MANY = 8;
   double step[3], view[3];
@@ -35,7 +35,7 @@ static bool have_one_texture(const struct scene *scene, uint32_t a, uint32_t b)
 
 /* The edge between two pixels, if any. Between neighbouring pixels, a smooth surface turns little and stays near both
  * tangent planes. A border between textures counts as a crease. */
-static enum check_edge edge_between(const struct check *check, const struct check_pixel *a, const struct check_pixel *b)
+static enum check_edge edge_between(const struct check *check, const struct check_sight *a, const struct check_sight *b)
 {
   static const double TURN = 0.9;  /* cosine of 26 degrees */
   static const double RISE = 0.34; /* sine of 20 degrees: the slope out of a tangent plane */
@@ -53,16 +53,15 @@ static enum check_edge edge_between(const struct check *check, const struct chec
   return creased ? CHECK_EDGE_CREASE : CHECK_EDGE_NONE;
 }
 
-void check_find_edges(struct check *check)
+void check_find_edges(struct check *check, const struct check_sight *window, size_t y)
 {
-  for (size_t y = 0; y < check->request->height; y++) {
-    for (size_t x = 0; x < check->request->width; x++) {
-      struct check_pixel *pixel = &check->ours.pixel[y * check->request->width + x];
-      for (size_t v = y == 0 ? 0 : y - 1; v <= y + 1 && v < check->request->height; v++) {
-        for (size_t u = x == 0 ? 0 : x - 1; u <= x + 1 && u < check->request->width; u++) {
-          const enum check_edge edge = edge_between(check, pixel, &check->ours.pixel[v * check->request->width + u]);
-          pixel->edge = edge > pixel->edge ? edge : pixel->edge;
-        }
+  const size_t width = check->request->width;
+  for (size_t x = 0; x < width; x++) {
+    enum check_edge *edge = &check->ours.pixel[y * width + x].edge;
+    for (size_t v = y == 0 ? 0 : y - 1; v <= y + 1 && v < check->request->height; v++) {
+      for (size_t u = x == 0 ? 0 : x - 1; u <= x + 1 && u < width; u++) {
+        const enum check_edge found = edge_between(check, &window[y % 3 * width + x], &window[v % 3 * width + u]);
+        *edge = found > *edge ? found : *edge;
       }
     }
   }

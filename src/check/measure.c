@@ -37,27 +37,38 @@ static void encode(struct image *image)
   for (size_t k = 0; k < count; k++) image->value[k] = (float)srgb_encode8(&table, image->value[k]) / 255;
 }
 
-static void look_at_pixels(struct check *check, struct tracer *tracer)
+static void look_at_row(struct check *check, struct tracer *tracer, size_t y, struct check_sight *out)
 {
   const size_t lights = check->scene->light_count < CHECK_LIGHTS ? check->scene->light_count : CHECK_LIGHTS;
-  for (size_t y = 0; y < check->request->height && !listener_stopped(check->listener); y++) {
-    for (size_t x = 0; x < check->request->width; x += PACKET_SIZE) {
-      struct check_pixel *pixels = &check->ours.pixel[y * check->request->width + x];
-      const size_t left = check->request->width - x, count = left < PACKET_SIZE ? left : PACKET_SIZE;
-      struct ray rays[PACKET_SIZE];
-      struct hit hits[PACKET_SIZE];
-      for (size_t k = 0; k < count; k++) rays[k] = pixel_ray(check, x + k, y);
-      tracer_closest(tracer, count, rays, hits);
-      for (size_t k = 0; k < count; k++) {
-        pixels[k].hit = hits[k];
-        pixels[k].distance = hits[k].patch == HIT_NONE ? INFINITY : hits[k].t * vector_length(rays[k].direction);
-      }
-      for (size_t light = 0; light < lights; light++) {
-        bool lit[PACKET_SIZE];
-        shade_lit(&check->scene->lights[light], tracer, count, hits, lit);
-        for (size_t k = 0; k < count; k++) pixels[k].lights |= (uint64_t)lit[k] << light;
-      }
+  for (size_t x = 0; x < check->request->width; x += PACKET_SIZE) {
+    struct check_pixel *pixels = &check->ours.pixel[y * check->request->width + x];
+    const size_t left = check->request->width - x, count = left < PACKET_SIZE ? left : PACKET_SIZE;
+    struct ray rays[PACKET_SIZE];
+    struct hit hits[PACKET_SIZE];
+    for (size_t k = 0; k < count; k++) rays[k] = pixel_ray(check, x + k, y);
+    tracer_closest(tracer, count, rays, hits);
+    for (size_t k = 0; k < count; k++) {
+      const struct hit *hit = &hits[k];
+      const double distance = hit->patch == HIT_NONE ? INFINITY : hit->t * vector_length(rays[k].direction);
+      out[x + k] = (struct check_sight){.hit = *hit, .distance = distance};
+      pixels[k] = (struct check_pixel){
+        .distance = distance, .u = hit->u, .v = hit->v, .patch = hit->patch, .certainty = hit->certainty};
     }
+    for (size_t light = 0; light < lights; light++) {
+      bool lit[PACKET_SIZE];
+      shade_lit(&check->scene->lights[light], tracer, count, hits, lit);
+      for (size_t k = 0; k < count; k++) out[x + k].lights |= (uint64_t)lit[k] << light;
+    }
+  }
+}
+
+/* A row's edges are known when the row below it is. */
+static void look_at_pixels(struct check *check, struct tracer *tracer, struct check_sight *window)
+{
+  const size_t width = check->request->width, height = check->request->height;
+  for (size_t y = 0; y <= height && !listener_stopped(check->listener); y++) {
+    if (y < height) look_at_row(check, tracer, y, &window[y % 3 * width]);
+    if (y > 0) check_find_edges(check, window, y - 1);
   }
 }
 
@@ -66,6 +77,7 @@ enum status check_measure_ours(struct check *check)
   struct check_ours *ours = &check->ours;
   struct intersector *intersector = NULL;
   struct tracer *tracer = NULL;
+  struct check_sight *window = NULL;
   const size_t width = check->request->width, height = check->request->height;
   const struct render_options options = {.width = width,
                                          .height = height,
@@ -86,13 +98,14 @@ enum status check_measure_ours(struct check *check)
     ours->time = (struct seconds){taken.wall + parse->wall, taken.cpu + parse->cpu};
     for (int k = 0; k < 3; k++) snprintf(ours->picture.channel[k].name, IMAGE_NAME_SIZE, "%c", "RGB"[k]);
     ours->pixel = calloc(width * height, sizeof *ours->pixel);
-    status = ours->pixel == NULL ? STATUS_LIMIT : tracer_create(intersector, &tracer);
+    window = calloc(3 * width, sizeof *window);
+    status = ours->pixel == NULL || window == NULL ? STATUS_LIMIT : tracer_create(intersector, &tracer);
   }
   if (status == STATUS_OK) {
-    look_at_pixels(check, tracer);
-    check_find_edges(check);
+    look_at_pixels(check, tracer, window);
     if (listener_stopped(check->listener)) status = STATUS_INTERRUPTED;
   }
+  free(window);
   tracer_destroy(tracer);
   intersector_destroy(intersector);
   return status == STATUS_LIMIT ? listener_out_of_memory(check->listener) : status;
@@ -135,7 +148,7 @@ static void compare_row(const struct check *check, const unsigned char *mask, st
   for (size_t y = 0; y < check->request->height; y++) {
     for (size_t x = 0; x < check->request->width; x++) {
       const size_t index = y * check->request->width + x;
-      const bool hit = check->ours.pixel[index].hit.patch != HIT_NONE;
+      const bool hit = check->ours.pixel[index].patch != HIT_NONE;
       row->over_limit_on[check->ours.pixel[index].edge] += check_pixel_difference(check, row, x, y) > limit;
       row->mask_ours += hit && !mask[index];
       row->mask_theirs += !hit && mask[index];

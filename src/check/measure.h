@@ -21,10 +21,17 @@ extern const char *const CHECK_EDGE_NAME[CHECK_EDGES];
 enum { CHECK_LIGHTS = 64 };
 
 /* Our answer for a pixel's centre. */
-struct check_pixel {
+struct check_sight {
   struct hit hit;
   double distance; /* scene units; INFINITY on a miss */
   uint64_t lights; /* bit k: light k of CHECK_LIGHTS reaches the point */
+};
+
+/* What is kept of it. On a miss u and v are unspecified. */
+struct check_pixel {
+  double distance, u, v;
+  uint32_t patch; /* or HIT_NONE */
+  enum certainty certainty;
   enum check_edge edge;
 };
 
@@ -96,8 +103,8 @@ bool check_within_limits(const struct check *check, char *out, size_t size);
 
 /* ---- edges.c ---- */
 
-/* Finds the edges among our pixels. */
-void check_find_edges(struct check *check);
+/* Finds the edges in a row of our pixels. `window` has the row and those beside it, row y at window[y % 3][width]. */
+void check_find_edges(struct check *check, const struct check_sight *window, size_t y);
 
 /* A map of our picture, darkened, with its edges, and with the pixels over the limit as spots. The colours are R G B, 0
  * to 1, of the edges, and of the spots by kind of edge. STATUS_LIMIT if memory is short. */

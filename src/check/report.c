@@ -43,11 +43,11 @@ static json_t *row_json(const struct check *check, const struct check_row *row)
 static json_t *worst_json(const struct check *check, const struct check_worst *worst)
 {
   const struct check_pixel *pixel = &check->ours.pixel[worst->y * check->request->width + worst->x];
-  const bool hit = pixel->hit.patch != HIT_NONE;
+  const bool hit = pixel->patch != HIT_NONE;
   json_t *here = !hit ? json_null()
                       : json_pack("{s:o,s:o,s:f,s:f,s:b}", "distance", page_of_number(pixel->distance), "patch",
-                                  json_count(pixel->hit.patch), "u", pixel->hit.u, "v", pixel->hit.v, "certain",
-                                  pixel->hit.certainty == CERTAINTY_CERTAIN);
+                                  json_count(pixel->patch), "u", pixel->u, "v", pixel->v, "certain",
+                                  pixel->certainty == CERTAINTY_CERTAIN);
   json_t *edge = pixel->edge == CHECK_EDGE_NONE ? json_null() : json_string(CHECK_EDGE_NAME[pixel->edge]);
   return json_pack("{s:[i,i],s:f,s:o,s:o,s:o}", "pixel", (int)worst->x, (int)worst->y, "difference", worst->difference,
                    "edge", edge, "here", here, "there_distance", page_of_number(worst->distance));

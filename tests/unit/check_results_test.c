@@ -96,9 +96,9 @@ static void everything_is_in_its_place(void **state)
   image_destroy(&check.row[0].picture.image); /* as the next row does */
   add_row(&check, row_of(3, 1, 0.75f));
   check.row[1].over[1] = check.row[1].over[2] = 0;
-  for (size_t k = 0; k < WIDTH * HEIGHT; k++) pixels[k].hit.patch = HIT_NONE;
+  for (size_t k = 0; k < WIDTH * HEIGHT; k++) pixels[k].patch = HIT_NONE;
   pixels[WIDTH + 2] = (struct check_pixel){
-    {.patch = 9, .u = 0.25, .v = 0.75, .certainty = CERTAINTY_GRAZING}, 4, 1, CHECK_EDGE_CREASE};
+    .distance = 4, .u = 0.25, .v = 0.75, .patch = 9, .certainty = CERTAINTY_GRAZING, .edge = CHECK_EDGE_CREASE};
   check.worst[0] = (struct check_worst){2, 1, 0.4, 5}, check.worst[1] = (struct check_worst){11, 0, 0.2, INFINITY};
   assert_int_equal(check_write(&check, "verdict", &table), STATUS_OK);
 

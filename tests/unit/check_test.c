@@ -7,25 +7,26 @@
 #include "cmocka_test.h"
 
 /* A hit at this point, seen from the origin. The normal need not have unit length. */
-static struct check_pixel pixel(double x, double y, double z, double nx, double ny, double nz)
+static struct check_sight sight(double x, double y, double z, double nx, double ny, double nz)
 {
   const double length = sqrt(nx * nx + ny * ny + nz * nz);
-  return (struct check_pixel){
+  return (struct check_sight){
     .hit = {.point = {x, y, z}, .normal = {nx / length, ny / length, nz / length}, .patch = 0},
     .distance = sqrt(x * x + y * y + z * z),
     .lights = 1};
 }
 
 /* The edge between both, the same in a row and in a column, and in either order. */
-static enum check_edge between(struct check_pixel a, struct check_pixel b)
+static enum check_edge between(struct check_sight a, struct check_sight b)
 {
   enum check_edge found = CHECK_EDGES;
   for (int way = 0; way < 4; way++) {
-    struct check_pixel pixels[2] = {way % 2 ? b : a, way % 2 ? a : b};
+    const struct check_sight window[2] = {way % 2 ? b : a, way % 2 ? a : b};
+    struct check_pixel pixels[2] = {0};
     struct scene scene = {.has_camera = true};
     const struct check_request request = {.width = way < 2 ? 2 : 1, .height = way < 2 ? 1 : 2};
     struct check check = {.request = &request, .scene = &scene, .ours = {.pixel = pixels}};
-    check_find_edges(&check);
+    for (size_t y = 0; y < request.height; y++) check_find_edges(&check, window, y);
     assert_int_equal(pixels[0].edge, pixels[1].edge);
     if (way > 0) assert_int_equal(pixels[0].edge, found);
     found = pixels[0].edge;
@@ -36,37 +37,37 @@ static enum check_edge between(struct check_pixel a, struct check_pixel b)
 static void one_surface_has_no_edge(void **state)
 {
   (void)state;
-  assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_NONE);
+  assert_int_equal(between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_NONE);
   /* seen nearly edge-on: the distance changes by five times the step */
-  assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.2), pixel(0.01, 0, 4.95, 1, 0, 0.2)), CHECK_EDGE_NONE);
+  assert_int_equal(between(sight(0, 0, 5, 1, 0, 0.2), sight(0.01, 0, 4.95, 1, 0, 0.2)), CHECK_EDGE_NONE);
   /* curved by some degrees a pixel */
-  assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 5.0005, 0.1, 0, -1)), CHECK_EDGE_NONE);
+  assert_int_equal(between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 5.0005, 0.1, 0, -1)), CHECK_EDGE_NONE);
 }
 
 static void what_stands_before_another_is_a_silhouette(void **state)
 {
   (void)state;
-  struct check_pixel miss = pixel(0, 0, 5, 0, 0, -1);
+  struct check_sight miss = sight(0, 0, 5, 0, 0, -1);
   miss.hit.patch = HIT_NONE, miss.distance = INFINITY;
   assert_int_equal(between(miss, miss), CHECK_EDGE_NONE);
-  assert_int_equal(between(miss, pixel(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
+  assert_int_equal(between(miss, sight(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
   /* off the tangent plane */
-  assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 6, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
+  assert_int_equal(between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 6, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
   /* off one of the two tangent planes */
-  assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 5, 0.5, 0, -1)), CHECK_EDGE_SILHOUETTE);
+  assert_int_equal(between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 5, 0.5, 0, -1)), CHECK_EDGE_SILHOUETTE);
   /* near both tangent planes, but farther away than one surface would be */
-  assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.2), pixel(0.01, 0, 9, 1, 0, 0.2)), CHECK_EDGE_SILHOUETTE);
+  assert_int_equal(between(sight(0, 0, 5, 1, 0, 0.2), sight(0.01, 0, 9, 1, 0, 0.2)), CHECK_EDGE_SILHOUETTE);
   /* farther away than the surface of the less oblique pixel would be */
-  assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.02), pixel(0.01, 0, 6, 1, 0, 0.3)), CHECK_EDGE_SILHOUETTE);
+  assert_int_equal(between(sight(0, 0, 5, 1, 0, 0.02), sight(0.01, 0, 6, 1, 0, 0.3)), CHECK_EDGE_SILHOUETTE);
 }
 
 static void shadows_and_creases_are_told_apart(void **state)
 {
   (void)state;
-  struct check_pixel lit = pixel(0, 0, 5, 0, 0, -1), dark = pixel(0.01, 0, 5, 0, 0, -1);
+  struct check_sight lit = sight(0, 0, 5, 0, 0, -1), dark = sight(0.01, 0, 5, 0, 0, -1);
   dark.lights = 0;
   assert_int_equal(between(lit, dark), CHECK_EDGE_SHADOW);
-  const struct check_pixel turned = pixel(0.01, 0, 5.002, 0.6, 0, -1);
+  const struct check_sight turned = sight(0.01, 0, 5.002, 0.6, 0, -1);
   assert_int_equal(between(lit, turned), CHECK_EDGE_CREASE);
   dark.hit = turned.hit, dark.distance = turned.distance;
   assert_int_equal(between(lit, dark), CHECK_EDGE_SHADOW);
