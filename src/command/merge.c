@@ -33,7 +33,6 @@ struct file {
   const char *path;
   struct piece piece; /* without pixels */
   bool good;          /* a valid piece of the picture, as far as is known */
-  size_t alike;       /* how many files are of the same picture, this being the first of them */
 };
 
 /* The state of the merge. */
@@ -79,27 +78,42 @@ static enum status read_headers(struct merge *merge)
   return STATUS_OK;
 }
 
-/* Whether both are pieces of one picture, cut in the same way. If not, the message says how they differ. */
-static bool belong(const struct file *a, const struct file *b, char *message, size_t size)
+/* piece_compare, also of the way in which the picture is cut. */
+static int compare(const struct file *a, const struct file *b, char *message, size_t size)
 {
-  if (!piece_belongs(&a->piece.image, &b->piece.image, message, size)) return false;
-  if (a->piece.count == b->piece.count) return true;
+  const int order = piece_compare(&a->piece.image, &b->piece.image, message, size);
+  if (order != 0 || a->piece.count == b->piece.count) return order;
   snprintf(message, size, "its number of pieces: %zu, not %zu", a->piece.count, b->piece.count);
-  return false;
+  return a->piece.count < b->piece.count ? -1 : 1;
+}
+
+/* The files of a picture in their order. */
+static int by_picture(const void *a, const void *b)
+{
+  const struct file *p = *(const struct file *const *)a, *q = *(const struct file *const *)b;
+  char message[IMAGE_MESSAGE_SIZE];
+  const int order = compare(p, q, message, sizeof message);
+  return order != 0 ? order : (p > q) - (p < q);
 }
 
 /* Chooses the picture that most files belong to; in a tie, that of the first file. */
-static void choose_picture(struct merge *merge)
+static enum status choose_picture(struct merge *merge)
 {
   char message[IMAGE_MESSAGE_SIZE];
-  for (size_t k = 0; k < merge->count; k++) {
-    struct file *like = merge->file;
-    if (!merge->file[k].good) continue;
-    while (!like->good || !belong(&merge->file[k], like, message, sizeof message)) like++;
-    like->alike++;
-  }
+  const struct file **sorted = malloc(merge->count * sizeof *sorted);
+  if (sorted == NULL) return command_out_of_memory(merge->command);
+  size_t good = 0, most = 0;
   for (size_t k = 0; k < merge->count; k++)
-    if (merge->file[k].alike > (merge->first == NULL ? 0 : merge->first->alike)) merge->first = &merge->file[k];
+    if (merge->file[k].good) sorted[good++] = &merge->file[k];
+  qsort(sorted, good, sizeof *sorted, by_picture);
+  for (size_t k = 0, next; k < good; k = next) {
+    for (next = k + 1; next < good && compare(sorted[k], sorted[next], message, sizeof message) == 0;) next++;
+    if (next - k < most || (next - k == most && sorted[k] > merge->first)) continue;
+    most = next - k;
+    merge->first = sorted[k];
+  }
+  free(sorted);
+  return STATUS_OK;
 }
 
 /* Creates the picture, still black. */
@@ -150,7 +164,7 @@ static bool is_same(const struct piece *header, const struct piece *whole)
 {
   char message[IMAGE_MESSAGE_SIZE];
   bool same = header->number == whole->number && header->count == whole->count &&
-              piece_belongs(&whole->image, &header->image, message, sizeof message);
+              piece_compare(&whole->image, &header->image, message, sizeof message) == 0;
   for (size_t t = 0; t < header->tiles.count && same; t++)
     same = atomic_load(&header->tiles.done[t]) == atomic_load(&whole->tiles.done[t]);
   return same;
@@ -163,7 +177,7 @@ static enum status read_files(struct merge *merge)
   for (size_t k = 0; k < merge->count; k++) {
     struct file *file = &merge->file[k];
     struct piece whole;
-    if (file->good && !belong(file, merge->first, message, sizeof message))
+    if (file->good && compare(file, merge->first, message, sizeof message) != 0)
       refuse(merge, file, "is a piece of another picture; ", message);
     if (file->good && has_twice(merge, &file->piece)) refuse(merge, file, "", "what it has is in a file before it too");
     if (!file->good) continue;
@@ -202,7 +216,7 @@ static enum status print_missing(const struct merge *merge, bool *out_any)
 
 /* ---- the picture ---- */
 
-enum { MOST_TEXTS = 40 };
+enum { MOST_TEXTS = 40 }; /* pscn's own are 14; of more, which only another program can have added, some are lost */
 
 /* Whether the metadata of this name describe a piece, not the picture. */
 static bool is_own(const char *name)
@@ -250,7 +264,7 @@ static enum status write_picture(const struct merge *merge)
 static enum status put_together(struct merge *merge)
 {
   enum status status = read_headers(merge);
-  if (status == STATUS_OK) choose_picture(merge);
+  if (status == STATUS_OK) status = choose_picture(merge);
   if (status == STATUS_OK && merge->first == NULL) return STATUS_FILE;
   if (status == STATUS_OK) status = create_picture(merge);
   if (status == STATUS_OK) status = read_files(merge);

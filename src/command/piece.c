@@ -298,18 +298,19 @@ enum status piece_read(const char *path, bool pixels, struct piece *out, char *m
   return status;
 }
 
-bool piece_belongs(const struct image *part, const struct image *picture, char *out, size_t size)
+int piece_compare(const struct image *part, const struct image *picture, char *out, size_t size)
 {
   for (size_t k = 0; k < sizeof COMMON / sizeof *COMMON; k++) {
     size_t here = 0, there = 0;
     const char *a = image_metadata(part, COMMON[k].name, &here), *b = image_metadata(picture, COMMON[k].name, &there);
     if (a == NULL) a = "", here = 0; /* empty texts are not stored */
     if (b == NULL) b = "", there = 0;
-    if (here == there && memcmp(a, b, here) == 0) continue;
+    const int order = here == there ? memcmp(a, b, here) : here < there ? -1 : 1;
+    if (order == 0) continue;
     snprintf(out, size, "its %s: '%.*s', not '%.*s'", COMMON[k].what, (int)here, a, (int)there, b);
-    return false;
+    return order;
   }
-  return true;
+  return 0;
 }
 
 /* Copies the values of one tile. channel[c] is the channel of `from` for channel c of `to`. */

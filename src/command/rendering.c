@@ -106,7 +106,7 @@ static bool is_part(const struct piece *piece, const struct piece *part, char *m
     snprintf(message, size, "its piece: %zu/%zu, not %zu/%zu", part->number, part->count, piece->number, piece->count);
     return false;
   }
-  return piece_belongs(&part->image, &piece->image, message, size);
+  return piece_compare(&part->image, &piece->image, message, size) == 0;
 }
 
 /* How many pixels of this picture an earlier run has left; 0 if they are of another picture or unusable. To know that,

@@ -104,18 +104,22 @@ static void parts_of_one_picture_belong_together(void **state)
   const struct image picture = {.metadata = texts};
   struct image part = picture;
   char message[IMAGE_MESSAGE_SIZE], expected[64], changed[sizeof texts];
-  assert_true(piece_belongs(&part, &picture, message, sizeof message));
+  assert_int_equal(piece_compare(&part, &picture, message, sizeof message), 0);
   part.metadata = changed;
   for (size_t k = 0; k < sizeof changes / sizeof *changes; k++) {
     memcpy(changed, texts, sizeof texts);
     changed[strstr(texts, changes[k].from) - texts + 1] = '7';
-    assert_false(piece_belongs(&part, &picture, message, sizeof message));
+    const int order = piece_compare(&part, &picture, message, sizeof message);
     (void)snprintf(expected, sizeof expected, "its %s: '", changes[k].what);
     assert_memory_equal(message, expected, strlen(expected));
+    assert_true(order != 0 && (order < 0) == (piece_compare(&picture, &part, message, sizeof message) > 0));
   }
+  strcpy(changed, "pscn:size=9x9\npscn:crop=1\n"); /* a shorter text comes first, from either side */
+  assert_true(piece_compare(&part, &picture, message, sizeof message) < 0);
+  assert_true(piece_compare(&picture, &part, message, sizeof message) > 0);
   memcpy(changed, texts, sizeof texts);
   *strstr(changed, "one") = '7'; /* the scene's file may have another name */
-  assert_true(piece_belongs(&part, &picture, message, sizeof message));
+  assert_int_equal(piece_compare(&part, &picture, message, sizeof message), 0);
 }
 
 /* The tiles that are done are copied and written, and no others; none if a channel is missing. A line of text stays one
