@@ -14,12 +14,13 @@ enum { SEED = 20240511, SCENES = 2, RAYS = 64 };
 #define SAME_T 1e-13
 
 /* Whether two answers to rays of the same geometry agree as far as both are certain; b's t is first multiplied by
- * `ratio`. */
-static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b, double ratio)
+ * `ratio`. Counts the certain hits. */
+static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b, double ratio, int *hits)
 {
   if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
   if (a->patch == HIT_NONE || b->patch == HIT_NONE) return a->patch == b->patch;
   const double length = vector_length(ray->direction), steep = fabs(vector_dot(ray->direction, a->normal)) / length;
+  ++*hits;
   return fabs(a->t - b->t * ratio) * steep <= SAME_T * fmax(a->t, 1 / length);
 }
 
@@ -53,7 +54,7 @@ static void powers_of_two_scale_exactly(void **state)
   (void)state;
   struct random random = {SEED};
   world_net nets[WORLD_MAX], other[WORLD_MAX];
-  int wrong = 0;
+  int wrong = 0, hits = 0;
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
     for (int e = 0; e < EXPONENTS; e++) {
       const int exponent = scene_exponents[e];
@@ -67,6 +68,7 @@ static void powers_of_two_scale_exactly(void **state)
         for (int k = 0; k < 3; k++) scaled.origin[k] = ldexp(ray.origin[k], exponent);
         const struct hit want = world_closest(&a, &ray);
         struct hit got = world_closest(&b, &scaled);
+        hits += want.patch != HIT_NONE;
         if (got.patch != HIT_NONE) {
           got.t = ldexp(got.t, -exponent), got.point_error = ldexp(got.point_error, -exponent);
           for (int k = 0; k < 3; k++) got.point[k] = ldexp(got.point[k], -exponent);
@@ -79,6 +81,7 @@ static void powers_of_two_scale_exactly(void **state)
     }
   }
   assert_int_equal(wrong, 0);
+  assert_true(hits > WORLD_KINDS * EXPONENTS * RAYS / 4);
 }
 
 /* x, y, z become y, z, x. The axis along which the ray is longest moves along, and with it the two planes, so no
@@ -88,7 +91,7 @@ static void turned_axes_answer_alike(void **state)
   (void)state;
   struct random random = {SEED + 9};
   world_net nets[WORLD_MAX], other[WORLD_MAX];
-  int wrong = 0;
+  int wrong = 0, hits = 0;
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
     for (int turn = 1; turn < 3; turn++) {
       struct world a, b;
@@ -104,6 +107,7 @@ static void turned_axes_answer_alike(void **state)
           turned.origin[(k + turn) % 3] = ray.origin[k], turned.direction[(k + turn) % 3] = ray.direction[k];
         const struct hit want = world_closest(&a, &ray), got = world_closest(&b, &turned);
         bool same = want.patch == got.patch && want.certainty == got.certainty;
+        hits += want.patch != HIT_NONE;
         if (same && want.patch != HIT_NONE) {
           same = want.t == got.t && want.u == got.u && want.v == got.v && want.point_error == got.point_error;
           for (int k = 0; k < 3; k++) {
@@ -118,6 +122,7 @@ static void turned_axes_answer_alike(void **state)
     }
   }
   assert_int_equal(wrong, 0);
+  assert_true(hits > WORLD_KINDS * 2 * RAYS / 4);
 }
 
 /* The order of the patches in the scene decides only which of those that meet in the hit point is answered. */
@@ -168,7 +173,7 @@ static void scaled_and_moved_scenes_answer_alike(void **state)
     double factor, offset;
   } changes[] = {{1e6, 0}, {1, 1e6}, {1, -12345678}, {1024, 3e7}};
   world_net nets[WORLD_MAX], other[WORLD_MAX];
-  int wrong = 0;
+  int wrong = 0, hits = 0;
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
     if (kind == WORLD_LOW) continue; /* its coordinates use all bits */
     for (size_t c = 0; c < sizeof changes / sizeof *changes; c++) {
@@ -184,7 +189,7 @@ static void scaled_and_moved_scenes_answer_alike(void **state)
         for (int k = 0; k < 3; k++) changed.origin[k] = ray.origin[k] * changes[c].factor + changes[c].offset;
         const struct hit want = world_closest(&a, &ray), got = world_closest(&b, &changed);
         if (n % RAY_KINDS == 5) continue; /* from the surface: rounding decides there whether t = 0 counts */
-        if (!agree(&ray, &want, &got, 1 / changes[c].factor) && wrong++ < 5)
+        if (!agree(&ray, &want, &got, 1 / changes[c].factor, &hits) && wrong++ < 5)
           world_print_case("moved", kind, &ray, &want, &got);
       }
       world_close(&a);
@@ -192,6 +197,7 @@ static void scaled_and_moved_scenes_answer_alike(void **state)
     }
   }
   assert_int_equal(wrong, 0);
+  assert_true(hits > (WORLD_KINDS - 1) * 4 * RAYS / 4);
 }
 
 /* Directions scaled by powers of two answer exactly alike, by other factors within a rounding; so do the shortest
@@ -202,7 +208,7 @@ static void the_length_of_the_direction_does_not_matter(void **state)
   struct random random = {SEED + 2};
   static const int exponents[] = {1, -30, 190, -190, 300, -300, 900, -900};
   world_net nets[WORLD_MAX];
-  int wrong = 0;
+  int wrong = 0, hits = 0;
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
     struct world world;
     const size_t count = world_fill((enum world_kind)kind, &random, nets);
@@ -218,6 +224,7 @@ static void the_length_of_the_direction_does_not_matter(void **state)
       }
       struct hit got = world_closest(&world, &longer);
       got.t = ldexp(got.t, exponent);
+      hits += want.patch != HIT_NONE && exact;
       if (want.patch != HIT_NONE && exact && !same_hit(&want, &got) && wrong++ < 5)
         world_print_case("length", kind, &ray, &want, &got);
       if ((want.patch == HIT_NONE) != (got.patch == HIT_NONE) && wrong++ < 5)
@@ -226,6 +233,7 @@ static void the_length_of_the_direction_does_not_matter(void **state)
     world_close(&world);
   }
   assert_int_equal(wrong, 0);
+  assert_true(hits > WORLD_KINDS * RAYS / 4);
 }
 
 static void odd_lengths(void **state)
@@ -260,7 +268,7 @@ static void cuts_and_methods_answer_alike(void **state)
   struct random random = {SEED + 5};
   static const int splits[] = {1, 2, 3, 5, 7, 10, 49, 64};
   world_net nets[WORLD_MAX];
-  int wrong = 0;
+  int wrong = 0, hits = 0;
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
     struct world first;
     const size_t count = world_fill((enum world_kind)kind, &random, nets);
@@ -283,7 +291,7 @@ static void cuts_and_methods_answer_alike(void **state)
       for (int n = 0; n < RAYS / 2; n++) {
         if (n % RAY_KINDS == 5) continue;
         const struct hit got = world_closest(&world, &rays[n]);
-        if (agree(&rays[n], &want[n], &got, 1)) continue;
+        if (agree(&rays[n], &want[n], &got, 1, &hits)) continue;
         if (wrong++ < 8) {
           print_message("way %d (%s, split %d)\n", way, options.roots.solver->name, options.split);
           world_print_case("method", kind, &rays[n], &want[n], &got);
@@ -293,6 +301,7 @@ static void cuts_and_methods_answer_alike(void **state)
     }
   }
   assert_int_equal(wrong, 0);
+  assert_true(hits > WORLD_KINDS * 8 * RAYS / 4);
 }
 
 static void warm_starts_are_reproducible(void **state)
