@@ -13,6 +13,7 @@
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
+#include "worse.h"
 
 enum { FULL_RAYS = 50000, LEAST_RAYS = 64, MOST_CLASSES = 32, FULL_POLES = 10000 };
 
@@ -81,7 +82,7 @@ static void test_poles(void **state)
     assert_int_not_equal(hit.patch, HIT_NONE);
     assert_true(hit.u <= POLE_PARAMETER);
     for (int axis = 0; axis < 3; axis++)
-      worst = fmax(worst, fabs(hit.normal[axis] + sign * placement.M[axis][1] / scale) - POLE_TURN * hit.u);
+      worst = worse(worst, fabs(hit.normal[axis] + sign * placement.M[axis][1] / scale) - POLE_TURN * hit.u);
   }
   printf("seed 520: %zu poles, normals off by %.2g at most beyond their turn, %.2g allowed\n", wanted, worst,
          POLE_NORMAL);

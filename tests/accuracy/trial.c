@@ -314,6 +314,14 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
   }
 }
 
+/* Whether the hit's numbers are in the ranges that intersect.h gives them; what is not a number is in none. */
+static bool in_ranges(const struct ray *ray, const struct hit *hit)
+{
+  return hit->t > ray->t_min && hit->t <= ray->t_max && hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1 &&
+         isfinite(hit->point[0]) && isfinite(hit->point[1]) && isfinite(hit->point[2]) && hit->point_error >= 0 &&
+         hit->clearance >= hit->point_error && fabs(facts_length(hit->normal) - 1) <= 8 * DOUBLE_UNIT;
+}
+
 void trial_judge_by(const struct trial *trial, const struct ray *ray, const struct hit *hit,
                     const struct reference_answer *truth, struct tally *tally)
 {
@@ -325,7 +333,10 @@ void trial_judge_by(const struct trial *trial, const struct ray *ray, const stru
   }
   tally->rays++;
   if (hit->certainty == CERTAINTY_GRAZING) tally->grazing++;
-  if (truth->verdict == REFERENCE_GRAZING) {
+  if (hit->patch != HIT_NONE && !in_ranges(ray, hit)) {
+    tally->invented++;
+    show("numbers out of their ranges", ray, hit, truth, facts, tally);
+  } else if (truth->verdict == REFERENCE_GRAZING) {
     judge_grazing(trial, ray, hit, truth, facts, tally);
   } else if (truth->verdict == REFERENCE_MISS) {
     tally->misses++;
@@ -389,6 +400,7 @@ void tally_print(struct tally *tally)
 
 void tally_assert(struct tally *tally)
 {
+  assert_true(tally->rays > 0);
   assert_int_equal(tally->lost, 0);
   assert_int_equal(tally->invented, 0);
   assert_int_equal(tally->bad_normal, 0);

@@ -15,6 +15,7 @@
 #include "library/pscn.h"
 
 #include "cmocka_test.h"
+#include "worse.h"
 
 enum { COUNT = 500 };
 
@@ -97,7 +98,7 @@ static double derivative_error(const struct pscn_scene *scene, const struct pscn
     patch_point(P, hit->u - u, hit->v - v, from);
     patch_point(P, hit->u + u, hit->v + v, to);
     for (int k = 0; k < 3; k++)
-      worst = fmax(worst, fabs((to[k] - from[k]) / (2 * step) - (along_v ? hit->dv : hit->du)[k]));
+      worst = worse(worst, fabs((to[k] - from[k]) / (2 * step) - (along_v ? hit->dv : hit->du)[k]));
   }
   return worst;
 }

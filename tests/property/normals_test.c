@@ -8,6 +8,7 @@
 #include "cmocka_test.h"
 #include "random.h"
 #include "world.h"
+#include "worse.h"
 
 enum { SEED = 20261126, PATCHES = 400, RAYS = 32, FARTHEST = 36 };
 
@@ -49,7 +50,7 @@ static double normal_off(world_net net, const struct hit *hit, double u)
   double at[3], normal[3], facing = 0, off = 0;
   surface(net, u, hit->v, at, normal);
   for (int c = 0; c < 3; c++) facing += normal[c] * hit->normal[c];
-  for (int c = 0; c < 3; c++) off = fmax(off, fabs(hit->normal[c] - copysign(normal[c], facing * normal[c])));
+  for (int c = 0; c < 3; c++) off = worse(off, fabs(hit->normal[c] - copysign(normal[c], facing * normal[c])));
   return off;
 }
 

@@ -8,6 +8,7 @@
 #include "intersect/lanes/quadric.h"
 #include "property/world.h"
 #include "quad_root.h"
+#include "worse.h"
 
 enum { SEED = 20240513, CASES = 12000 };
 
@@ -112,16 +113,16 @@ static void check_planes(struct subject *s, struct random *random)
   for (int p = 0; p < 2; p++) {
     const double *net = p ? s->b : s->a;
     const double off = (double)quad_abs((quad)s->local.moment[p] - s->truth.moment[p]);
-    worst_moment = fmax(worst_moment, off / (UNIT_ROUNDOFF * (double)(quad_abs(s->truth.moment[p]) + 0x1p-60)));
+    worst_moment = worse(worst_moment, off / (UNIT_ROUNDOFF * (double)(quad_abs(s->truth.moment[p]) + 0x1p-60)));
     for (int n = 0; n < 16; n++)
-      worst_net = fmax(worst_net, (double)quad_abs((quad)net[n] - s->truth.net[p].c[n / 4][n % 4]) / s->local.error);
+      worst_net = worse(worst_net, (double)quad_abs((quad)net[n] - s->truth.net[p].c[n / 4][n % 4]) / s->local.error);
   }
   /* start and to_t give t of the local place 0. */
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
   const int k = s->local.axis;
   const quad t = ((quad)patch->center[k] - s->ray.origin[k]) / s->ray.direction[k];
   const quad got = ((quad)s->local.depth.start[0] + s->local.depth.start[1]) * s->local.depth.to_t;
-  if (t != 0) worst_t = fmax(worst_t, (double)(quad_abs(got - t) / quad_abs(t)) / UNIT_ROUNDOFF);
+  if (t != 0) worst_t = worse(worst_t, (double)(quad_abs(got - t) / quad_abs(t)) / UNIT_ROUNDOFF);
 }
 
 static void the_plane_polynomials_are_within_their_error(void **state)
@@ -227,7 +228,7 @@ static void check_refine(struct subject *s, struct random *random)
     for (int c = 0; c < 3; c++) {
       const quad x = quad_net_jet(&s->truth.x[c], root.at.u[0], root.at.v[0]).value;
       const double off = (double)quad_abs(root.point[c][0] - x);
-      worst_inside = fmax(worst_inside, off / (s->leaf->parts.error + UNIT_ROUNDOFF));
+      worst_inside = worse(worst_inside, off / (s->leaf->parts.error + UNIT_ROUNDOFF));
     }
   }
 }
@@ -324,20 +325,20 @@ static void check_leaf_root(struct subject *s, struct random *random)
   const quad at_u = root.at.u[0], at_v = root.at.v[0];
   for (int n = 0; n < 2; n++) {
     const quad off = quad_net_jet(&s->truth.net[n], at_u, at_v).value;
-    worst_residual = fmax(worst_residual, (double)quad_abs(off) / UNIT_ROUNDOFF);
+    worst_residual = worse(worst_residual, (double)quad_abs(off) / UNIT_ROUNDOFF);
   }
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
   const quad start = ((quad)patch->center[k] - s->ray.origin[k]) / patch->scale;
   const struct quad_jet exact = quad_net_jet(&s->truth.x[k], u, v);
   const double place = (double)quad_abs((quad)root.t[0] * s->ray.direction[k] / patch->scale - (exact.value + start));
-  worst_place = fmax(worst_place,
-                     place / (UNIT_ROUNDOFF * (fmax(size[0], size[1]) + (double)quad_abs(exact.value + start))));
+  worst_place = worse(worst_place,
+                      place / (UNIT_ROUNDOFF * (fmax(size[0], size[1]) + (double)quad_abs(exact.value + start))));
   for (int c = 0; c < 3 && at_u >= 0 && at_u <= 1 && at_v >= 0 && at_v <= 1; c++) {
     const struct quad_jet jet = quad_net_jet(&s->truth.x[c], at_u, at_v);
     const double reach = s->leaf->first[0] + s->leaf->first[1];
-    worst_point = fmax(worst_point, (double)quad_abs(root.point[c][0] - jet.value) / UNIT_ROUNDOFF);
-    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.su[c][0] - jet.du) / (UNIT_ROUNDOFF * (reach + 1)));
-    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.sv[c][0] - jet.dv) / (UNIT_ROUNDOFF * (reach + 1)));
+    worst_point = worse(worst_point, (double)quad_abs(root.point[c][0] - jet.value) / UNIT_ROUNDOFF);
+    worst_tangent = worse(worst_tangent, (double)quad_abs(root.su[c][0] - jet.du) / (UNIT_ROUNDOFF * (reach + 1)));
+    worst_tangent = worse(worst_tangent, (double)quad_abs(root.sv[c][0] - jet.dv) / (UNIT_ROUNDOFF * (reach + 1)));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "cmocka_test.h"
 #include "property/world.h"
 #include "reference/reference.h"
+#include "worse.h"
 
 enum { SEED = 20261123, SCENES = 12, PACKETS = 40, RAYS = PACKET_SIZE };
 
@@ -40,7 +41,7 @@ static void check(const struct reference *reference, const struct ray *ray, cons
   const double *d = ray->direction;
   const bool near = t * sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) < exp2(NEAR);
   told[near]++;
-  worst[near] = fmax(worst[near], (double)quad_abs(hit->t - exact.t) / place);
+  worst[near] = worse(worst[near], (double)quad_abs(hit->t - exact.t) / place);
 }
 
 static void hits_next_to_the_start_have_their_last_places(void **state)

@@ -4,6 +4,7 @@
 #include "cmocka_test.h"
 #include "random.h"
 #include "reference/quad.h"
+#include "worse.h"
 
 enum { CASES = 200000, SEED = 20240501 };
 
@@ -59,7 +60,7 @@ static void operations_are_right_to_their_bound(void **state)
     for (int k = 0; k < 3; k++) {
       const double error = (double)(quad_abs(value(got[k]) - want[k]) / quad_abs(want[k]));
       assert_true(normal(got[k]));
-      worst[k] = fmax(worst[k], error / DD_UNIT);
+      worst[k] = worse(worst[k], error / DD_UNIT);
     }
   }
   print_message("worst relative error in 2^-104: sum %.3g, product %.3g, scaled %.3g\n", worst[0], worst[1], worst[2]);
@@ -90,7 +91,7 @@ static void cancelling_sums_are_right(void **state)
     const quad want = ((quad)a.hi + b.hi) + ((quad)a.lo + b.lo);
     const struct double_double got = dd_add(a, b);
     if (want == 0) assert_true(got.hi == 0 && got.lo == 0);
-    else worst = fmax(worst, (double)(quad_abs(value(got) - want) / quad_abs(want)) / DD_UNIT);
+    else worst = worse(worst, (double)(quad_abs(value(got) - want) / quad_abs(want)) / DD_UNIT);
   }
   print_message("worst relative error of a cancelling sum in 2^-104: %.3g\n", worst);
   assert_true(worst <= FEW);

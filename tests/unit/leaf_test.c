@@ -10,6 +10,7 @@
 #include "geometry/patch.h"
 #include "random.h"
 #include "reference/quad.h"
+#include "worse.h"
 
 enum { SEED = 20261123, MOST_LEAVES = 32 * 32 };
 
@@ -158,17 +159,17 @@ static void leaf_is_its_part(struct random *random, int kind, const struct model
       const struct quad_jet jet = quad_net_jet(&exact[k], at[0], at[1]);
       x[k] = (double)jet.value;
       const double off = (double)quad_abs(parts_value(&leaf.parts, k, (quad)u - 0.5, (quad)v - 0.5) - jet.value);
-      worst_value = fmax(worst_value, off / UNIT_ROUNDOFF);
+      worst_value = worse(worst_value, off / UNIT_ROUNDOFF);
       const double su = (double)jet.du / patch->cut.split[0], sv = (double)jet.dv / patch->cut.split[1];
       slope[0] += su * su, slope[1] += sv * sv;
     }
     for (int side = 0; side < 2 && leaf.first[side] > 0x1p-400; side++)
-      worst_slope = fmax(worst_slope, sqrt(slope[side]) / leaf.first[side]);
+      worst_slope = worse(worst_slope, sqrt(slope[side]) / leaf.first[side]);
     const bool within = u >= 0 && u <= 1 && v >= 0 && v <= 1;
     for (int q = 0; q < 3 && within; q++) {
       const double *g = leaf.slab[q].g;
       const double off = fabs(g[0] * x[0] + g[1] * x[1] + g[2] * x[2] - leaf.slab[q].offset);
-      worst_slab = fmax(worst_slab, off / leaf.slab[q].half);
+      worst_slab = worse(worst_slab, off / leaf.slab[q].half);
     }
   }
 }
@@ -237,12 +238,12 @@ static void leaf_lies_along_its_quadric(struct random *random, int kind, const s
       for (int k = 0; k < 2; k++) forms_at(exact, patch, &leaf, at[k][0], at[k][1], form[k]);
       const quad one = rest_of(of, form[0]), other = rest_of(of, form[1]);
       if (at[0][0] >= 0 && at[0][0] <= 1 && at[0][1] >= 0 && at[0][1] <= 1)
-        worst_off = fmax(worst_off, (double)(quad_abs(one) / of->off));
+        worst_off = worse(worst_off, (double)(quad_abs(one) / of->off));
       bool within = true;
       for (int k = 0; k < 4; k++) within &= at[k / 2][k % 2] >= 0 && at[k / 2][k % 2] <= 1;
       const double *turn = within ? of->turn : of->turn_wide;
       const quad most = turn[0] * quad_abs(form[0][1] - form[1][1]) + turn[1] * quad_abs(form[0][2] - form[1][2]);
-      if (most > 0) worst_turn[within] = fmax(worst_turn[within], (double)(quad_abs(one - other) / most));
+      if (most > 0) worst_turn[within] = worse(worst_turn[within], (double)(quad_abs(one - other) / most));
     }
   }
 }
@@ -299,7 +300,7 @@ static void second_derivative_bounds_hold_and_are_near(void **state)
           most = fmax(most, sqrt(sum));
         }
       }
-      worst = fmax(worst, most / bound[kind]), best = fmin(best, most / bound[kind]);
+      worst = worse(worst, most / bound[kind]), best = fmin(best, most / bound[kind]);
     }
   }
   print_message("largest second derivative / bound: %.6g at most, %.3g at least\n", worst, best);

@@ -5,6 +5,7 @@
 #include "lanes_main.h"
 #include "quad_root.h"
 #include "unit/lane_subject.h"
+#include "worse.h"
 
 enum { SEED = 20261126, CASES = 600 };
 
@@ -80,8 +81,8 @@ static double farthest(const struct subject *s, const struct newton_root *root, 
     quad u = root->u[lane], v = root->v[lane];
     truth_make(s, lane, at, off, truth);
     assert_true(quad_root(truth, &u, &v));
-    most = fmax(most, fmax((double)quad_abs(u - root->u[lane]) / root->radius_u[lane],
-                           (double)quad_abs(v - root->v[lane]) / root->radius_v[lane]));
+    most = worse(most, worse((double)quad_abs(u - root->u[lane]) / root->radius_u[lane],
+                             (double)quad_abs(v - root->v[lane]) / root->radius_v[lane]));
   }
   return most;
 }
@@ -113,8 +114,8 @@ static void a_proven_root_is_within_its_radii(void **state)
         const bool both = (root.at.u[lane] < 0 || root.at.u[lane] > 1) && (root.at.v[lane] < 0 || root.at.v[lane] > 1);
         const double part = farthest(&s, &root.at, lane, at[lane], error);
         proven++, beside += both;
-        if (both) most_beside = fmax(most_beside, part);
-        else most = fmax(most, part);
+        if (both) most_beside = worse(most_beside, part);
+        else most = worse(most, part);
       }
     }
   }
@@ -174,7 +175,7 @@ static void next_to_a_pole_too(void **state)
       alone += lanes_count(root.at.alone & p->on_axis[axis]);
       for (unsigned bits = lanes_bits(root.at.exists & p->on_axis[axis]); bits; bits &= bits - 1) {
         const unsigned lane = (unsigned)__builtin_ctz(bits);
-        most = fmax(most, farthest(&s, &root.at, lane, at[lane], error));
+        most = worse(most, farthest(&s, &root.at, lane, at[lane], error));
       }
     }
   }

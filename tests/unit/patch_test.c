@@ -7,6 +7,7 @@
 #include "cmocka_test.h"
 #include "random.h"
 #include "reference/quad.h"
+#include "worse.h"
 
 enum { SEED = 20240505, CASES = 3000 };
 
@@ -56,7 +57,7 @@ static void evaluation_is_right_to_its_roundings(void **state)
     const struct quad_jet want = quad_net_jet(&exact, u, v);
     const double off[3] = {(double)quad_abs(got.value - want.value), (double)quad_abs(got.du - want.du),
                            (double)quad_abs(got.dv - want.dv)};
-    for (int k = 0; k < 3; k++) worst[k] = fmax(worst[k], off[k] / (UNIT * largest(net)));
+    for (int k = 0; k < 3; k++) worst[k] = worse(worst[k], off[k] / (UNIT * largest(net)));
   }
   print_message("evaluation off by %.3g, %.3g, %.3g roundings\n", worst[0], worst[1], worst[2]);
   assert_true(worst[0] <= VALUE_ROUNDINGS && worst[1] <= SLOPE_ROUNDINGS && worst[2] <= SLOPE_ROUNDINGS);
@@ -100,7 +101,7 @@ static void subnets_are_right_to_their_roundings(void **state)
     to_quad(net, &exact);
     quad_net_restrict(&exact, range[0], range[1] - range[0], range[2], range[3] - range[2], &part);
     for (int k = 0; k < 16; k++)
-      worst = fmax(worst, (double)quad_abs(part.c[k / 4][k % 4] - cut[k / 4][k % 4]) / (UNIT * largest(net)));
+      worst = worse(worst, (double)quad_abs(part.c[k / 4][k % 4] - cut[k / 4][k % 4]) / (UNIT * largest(net)));
     patch_subnet(net, range[0], range[1], range[2], range[3], net); /* out may be net */
     assert_memory_equal(net, cut, sizeof net);
   }
@@ -237,7 +238,7 @@ static void reduced_nets_are_the_nets_that_were_raised(void **state)
         elevated((const double(*)[4])low, m, n, 1, 0, x);
         patch_reduce(x, m, n, out);
         for (int i = 0; i <= m; i++)
-          for (int j = 0; j <= n; j++) worst = fmax(worst, fabs(out[i][j] - low[i][j]) / UNIT);
+          for (int j = 0; j <= n; j++) worst = worse(worst, fabs(out[i][j] - low[i][j]) / UNIT);
         for (int c = 0; c < 4; c++) assert_true(out[c / 2 * m][c % 2 * n] == x[c / 2 * 3][c % 2 * 3]);
         patch_reduce(x, m, n, x);
         assert_memory_equal(x, out, sizeof x);

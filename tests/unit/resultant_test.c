@@ -19,6 +19,7 @@
 #define BEZOUT_REAL lanes
 #define BEZOUT_NAME(name) bezout_lanes_##name
 #include "algebra/bezout.h"
+#include "worse.h"
 
 enum { SEED = 20240504, CASES = 1000, TERMS = 19 };
 
@@ -205,9 +206,9 @@ static void the_bound_of_r_holds(void **state)
           const double binomial = choose(2 * m * n, e);
           const double rounding = weight * RESULTANT_ROUNDINGS * UNIT_ROUNDOFF;
           const double all = RESULTANT_ERROR(n, pow(alpha * beta, n), alpha, beta, error);
-          size_ratio = fmax(size_ratio, fabs((double)exact[e]) / binomial / weight);
-          error_ratio = fmax(error_ratio, fabs((double)(exact[e] - (quad)c[e])) / binomial / rounding);
-          blurred_ratio = fmax(blurred_ratio, fabs((double)(blurred[e] - (quad)c[e])) / binomial / all);
+          size_ratio = worse(size_ratio, fabs((double)exact[e]) / binomial / weight);
+          error_ratio = worse(error_ratio, fabs((double)(exact[e] - (quad)c[e])) / binomial / rounding);
+          blurred_ratio = worse(blurred_ratio, fabs((double)(blurred[e] - (quad)c[e])) / binomial / all);
         }
       }
     }
@@ -268,7 +269,7 @@ static void a_common_root_is_a_root_of_r(void **state)
       /* Planting rounds each coefficient once. The weights sum to 1, so a coefficient's bound also bounds the value. */
       const double error = fmax(alpha, beta) * UNIT_ROUNDOFF;
       const double bound = RESULTANT_ERROR(n, pow(alpha * beta, n), alpha, beta, error);
-      worst_r = fmax(worst_r, fabs((double)value) / bound);
+      worst_r = worse(worst_r, fabs((double)value) / bound);
       double p[4] = {0}, q[4] = {0}, num[2], den[2], better;
       for (int i = 0; i <= m; i++)
         for (int j = 0; j <= n; j++) {

@@ -7,6 +7,7 @@
 #include "geometry/transform_kernel.h"
 #include "random.h"
 #include "reference/quad.h"
+#include "worse.h"
 
 enum { CASES = 20000, SEED = 20240607 };
 
@@ -48,12 +49,12 @@ static void sines_and_cosines_are_right_to_their_bound(void **state)
     struct transform t;
     transform_rotation((double[]){0, 0, degrees}, &angles, &t);
     const double error = (double)quad_abs(value(t.A[0][1]) / sine(degrees) - 1);
-    if (error > worst) worst = error;
+    worst = worse(worst, error);
     assert_true(value(t.A[1][0]) == -value(t.A[0][1]) && value(t.A[0][0]) == value(t.A[1][1]));
     const bool rounded = rest + fabs(degrees) != 90 || 90 - rest != fabs(degrees);
     if (rest == 0 || rounded) continue;
     const double other = (double)quad_abs(value(t.A[0][0]) / sine(rest) - 1);
-    if (other > worst) worst = other;
+    worst = worse(worst, other);
   }
   print_message("worst error of a sine or cosine: %.2f x 2^-104\n", worst * 0x1p104);
   assert_true(worst > 0 && worst < MOST_ERROR);
