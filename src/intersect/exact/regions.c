@@ -11,9 +11,8 @@
  * meets them like any others. A choice of speed. */
 #define POLE_NEAR 0x1p-8
 
-static bool passes_near(struct judge *j, uint32_t patch, int border)
+static bool passes_near(const struct judge *j, int border)
 {
-  judge_turn(j, patch);
   const struct local_ray *ray = &j->local;
   double(*x)[4][4] = j->prepared->x;
   const int row = edge_at(border, 0) / 4, column = edge_at(border, 0) % 4;
@@ -28,13 +27,13 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
  * may meet the strip anywhere. */
 static void region_widen(struct judge *j, struct exact_region *r)
 {
-  struct patch_room room;
-  struct model_patch *patch = model_patch_at(j->asked->model, r->patch, &room);
+  judge_turn(j, r->patch);
+  const struct model_patch *patch = j->prepared;
   const struct exact_region narrow = *r;
   for (int border = 0; border < 4; border++) {
     const int across = 1 - border / 2;
     if (patch->cut.split[across] == 1 || !leaf_border_is_point(patch, narrow.column, narrow.span, border)) continue;
-    if (!passes_near(j, r->patch, border)) continue;
+    if (!passes_near(j, border)) continue;
     r->column[across] = 0, r->span[across] = patch->cut.split[across], r->leaf = NULL;
   }
 }

@@ -105,6 +105,7 @@ void search_run_closer(struct search *closer, const struct zoomed *zoomed)
   for (int k = 0; k < 2; k++) closer->error[k] = zoomed->error[k];
   struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0}, waiting[CLOSER_AHEAD + SEARCH_STACK];
   memcpy(whole.net, zoomed->net, sizeof whole.net);
+  window_set_reach(&closer->window, &whole);
   search_run(closer, &whole, waiting);
 }
 
@@ -224,12 +225,11 @@ static int next_box(const struct search *s, const struct box waiting[], int coun
   return next;
 }
 
-/* Searches the box `whole`. Its nets, and all that the search starts with, are set. waiting: room for s->ahead and
+/* Searches the box `whole`, which is set, as is all that the search starts with. waiting: room for s->ahead and
  * SEARCH_STACK boxes. */
 static void search_run(struct search *s, const struct box *whole, struct box waiting[])
 {
   waiting[0] = *whole;
-  window_set_reach(&s->window, &waiting[0]);
   for (int count = 1; count > 0;) {
     const int next = next_box(s, waiting, count);
     struct box box = waiting[next];

@@ -56,12 +56,10 @@ struct exact_root window_root(const struct window *window, struct box *box, cons
   const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
   double bend[3];
   patch_bends(box->net[2], bend);
-  const double t = t_of_depth(&window->depth, w.value), sum = radius[0] + radius[1];
+  const double sum = radius[0] + radius[1], rounding = window->zooms > 0 ? 0 : 4 * UNIT_ROUNDOFF;
   const double off = fabs(w.du) * radius[0] + fabs(w.dv) * radius[1] +
                      BOX_MARGIN_GROWTH * (bend[0] + 2 * bend[1] + bend[2]) * sum * sum;
-  struct exact_root root = {.t = t};
-  root.t_error = window_length(window, off + window->depth_error) +
-                 8 * UNIT_ROUNDOFF * (fabs(t) + window_length(window, fabs(w.value)));
+  struct exact_root root = {.sharp = false};
   if (window->zooms > 0) {
     root.u = window_place(window, box, 0, at[0]);
     root.v = window_place(window, box, 1, at[1]);
@@ -69,10 +67,13 @@ struct exact_root window_root(const struct window *window, struct box *box, cons
     root.t_error = window_length(window, off + judge_zoom(window->judge)->depth_error) +
                    8 * (double)WIDE_ROUNDOFF * fabs((double)root.t);
   } else {
+    const double t = t_of_depth(&window->depth, w.value);
+    root.t = t;
+    root.t_error = window_length(window, off + window->depth_error) +
+                   8 * UNIT_ROUNDOFF * (fabs(t) + window_length(window, fabs(w.value)));
     root.u = (double)window->low[0] + (double)window->size[0] * (box->u + box->size_u * at[0]);
     root.v = (double)window->low[1] + (double)window->size[1] * (box->v + box->size_v * at[1]);
   }
-  const double rounding = window->zooms > 0 ? 0 : 4 * UNIT_ROUNDOFF;
   root.radius_u = radius[0] * box->size_u * (double)window->size[0] * (1 + 4 * UNIT_ROUNDOFF) + rounding;
   root.radius_v = radius[1] * box->size_v * (double)window->size[1] * (1 + 4 * UNIT_ROUNDOFF) + rounding;
   return root;
@@ -80,7 +81,6 @@ struct exact_root window_root(const struct window *window, struct box *box, cons
 
 void window_tell_maybe(const struct window *window, const struct box *box, double u, double v, double t, double t_error)
 {
-  judge_maybe(window->judge, (double)(window->low[0] + window->size[0] * (box->u + box->size_u * u)),
-              (double)(window->low[1] + window->size[1] * (box->v + box->size_v * v)), t, t_error,
-              real_max(box->near, t - t_error));
+  judge_maybe(window->judge, (double)window_place(window, box, 0, u), (double)window_place(window, box, 1, v), t,
+              t_error, real_max(box->near, t - t_error));
 }

@@ -225,11 +225,11 @@ LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
 LANES_INLINE unsigned ray_view_boxes(const struct ray_view *ray, float end, const struct bvh_node *node,
                                      float out_near[BVH_WIDTH])
 {
-  four_floats near = four_floats_all(0), far = four_floats_all(end), first, last;
+  four_floats near = four_floats_all(0), far = four_floats_all(end);
   four_mask child;
   for (int k = 0; k < 3; k++) {
-    memcpy(&first, node_row(node, ray->sides.first[k]), sizeof first);
-    memcpy(&last, node_row(node, ray->sides.last[k]), sizeof last);
+    const four_floats first = four_floats_load(node_row(node, ray->sides.first[k]));
+    const four_floats last = four_floats_load(node_row(node, ray->sides.last[k]));
     near = four_floats_max(first * ray->inverse[k] + ray->early[k], near);
     far = four_floats_min(last * ray->inverse[k] + ray->late[k], far);
   }
