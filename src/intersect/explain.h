@@ -51,7 +51,7 @@ struct explained_candidate {
 
 typedef void explain_listener(void *context, const struct explained_candidate *candidate);
 
-/* As tracer_closest for one ray; calls `tell` for every candidate. */
+/* As tracer_closest for one ray; calls `tell` for every candidate that its slab and its pole do not close at once. */
 void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *tell, void *context,
                     struct hit *out_hit);
 

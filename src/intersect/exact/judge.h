@@ -88,7 +88,7 @@ void judge_search(struct judge *j);
  * the current one. */
 void search_region(struct judge *j, const struct exact_region *region);
 
-/* Makes the patch the current one: sets prepared, room and local for it. */
+/* Makes the patch the current one: sets all that is of it, but for `zoom`. */
 void judge_turn(struct judge *j, uint32_t patch);
 
 /* The ray through the current patch, in fixed point. */

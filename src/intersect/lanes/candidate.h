@@ -72,7 +72,8 @@ lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask o
  * Where they do not, one more root is sought, and the boxes are examined with both. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
-/* resultant.c: forms Bezout's resultant r of a and b in Bernstein form. Closes lanes where it has no sign variation. */
+/* resultant.c: sets the form and, with polish, Bezout's resultant r of a and b in Bernstein form. Closes lanes where that
+ * has no sign variation. */
 lane_mask stage_resultant(struct candidate *it, lane_mask open);
 
 /* resultant.c: finds one root of r from its control polygon, and another one if that is not alone. Closes lanes where

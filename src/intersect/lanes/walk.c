@@ -178,7 +178,7 @@ LANES_INLINE int most_alone(const struct bundle *b)
   return b->packet[0].tracer->warm ? 1 : b->view.apart ? FEW_APART : FEW_TOGETHER;
 }
 
-/* This many leaves, of some 1.1 KB each, exceed any processor's own caches. If the rays have nothing in common there,
+/* This many leaves, of some 1.2 KB each, exceed any processor's own caches. If the rays have nothing in common there,
  * waiting for memory costs more than they could share. */
 enum { MANY_LEAVES = 1 << 14 };
 

@@ -1,6 +1,6 @@
 /* One patch of the scene, prepared: its frame, its true degree, how far it is cut.
  *
- * Internal to src/intersect. Pure; safe on any thread for different patches.
+ * Internal to src/intersect. Safe on any thread for different patches: the cut of one is kept in model->cuts.
  */
 #ifndef PSCN_INTERSECT_PREPARE_PATCH_H
 #define PSCN_INTERSECT_PREPARE_PATCH_H
