@@ -10,7 +10,8 @@
 
 enum { WIDTH = 12, HEIGHT = 2, ROWS = 2, CROP = 15, MOST_PICTURES = 20 };
 
-/* What was written: the numbers, the page, and of each picture the red of the first pixel and the blue of the middle. */
+/* What was written: the numbers, the page, and of each picture the red of the first pixel and the blue of the middle.
+ * */
 static json_t *numbers;
 static char page[1 << 16];
 static struct {

@@ -32,9 +32,9 @@ static wide along_border(const struct exact_root *root, int border) { return bor
 /* The side of the border's curve, as seen along d, on which the patch lies at the root: the sign of det(d, tangent,
  * inward), or 0 if that is too small a part of its largest possible value to be sure. The tangent runs along the
  * border's parameter. Next to a pole, or where a handle has no length, derivatives are small, but so are their errors,
- * for what is exactly 0 has none. `apart`: how far from the root, along the border, the other patch has it. A border may
- * return to a point of its own, where other parts of the patches meet; but if it does so within that, its tangent is no
- * longer than second derivatives times that, and no side is sure. */
+ * for what is exactly 0 has none. `apart`: how far from the root, along the border, the other patch has it. A border
+ * may return to a point of its own, where other parts of the patches meet; but if it does so within that, its tangent
+ * is no longer than second derivatives times that, and no side is sure. */
 static int inner_side(const struct judge *j, const struct exact_root *root, int border, double apart, const double d[3])
 {
   /* Derivatives are right to some units in the last place of the patch's size, 1; this is well above that. */

@@ -60,9 +60,8 @@ struct judge {
   struct ray ray;
   struct model_patch *prepared; /* in `room` if the model does not keep it */
   struct patch_room room;
-  int zeros
-    [4]; /* rows of its net, from each border (geometry/edges.h) on, that are one point which the ray meets exactly */
-  bool zoomed; /* `zoom` is set */
+  int zeros[4]; /* rows of the net, from each border (geometry/edges.h) on, in one point that the ray meets exactly */
+  bool zoomed;  /* `zoom` is set */
   struct zoom zoom;
   struct local_ray local;
 };
@@ -102,8 +101,8 @@ void judge_root(struct judge *j, struct exact_root *root);
 /* Tells that the ray meets a border that is one point exactly (`zeros`). */
 void judge_pole_met(struct judge *j, int border);
 
-/* Tells that it meets one as far as wide arithmetic can tell, but not exactly. The search tells nothing of what is next to
- * the point; that begins at most `reach` before it. */
+/* Tells that it meets one as far as wide arithmetic can tell, but not exactly. The search tells nothing of what is next
+ * to the point; that begins at most `reach` before it. */
 void judge_pole(struct judge *j, int border, double reach);
 
 /* Tells that (u,v), with t known to t_error, may be on the ray. What the point stands for begins at `from` or

@@ -125,8 +125,8 @@ static bool box_zoom(struct search *s, const struct box *box)
   return true;
 }
 
-/* Searches a box at poles that the ray meets exactly by itself, zoomed: there both polynomials are divided by the distance
- * from the poles. Returns whether it did. */
+/* Searches a box at poles that the ray meets exactly by itself, zoomed: there both polynomials are divided by the
+ * distance from the poles. Returns whether it did. */
 static bool box_zoom_met(struct search *s, const struct box *box)
 {
   int zeros[4];

@@ -107,8 +107,8 @@ static double row_bend(struct zoom *zoom, const wide m[2], const struct units *u
  * radius, where it converges quadratically except for the first few steps next to a pole. */
 enum { SHARPEN_STEPS = 24 };
 
-/* Newton's method from (x,y): sets where it ends, its last step in x and y, and the rows of the inverse Jacobian there. The rows
- * are wide: next to a pole the whole determinant is small, and so each row is right to its own last places. */
+/* Newton's method from (x,y): sets where it ends, its last step in x and y, and the rows of the inverse Jacobian there.
+ * The rows are wide: next to a pole the whole determinant is small, and so each row is right to its own last places. */
 static bool newton(struct zoom *zoom, fixed *x, fixed *y, double out_step[2], wide m[2][2])
 {
   static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN - CERTIFICATE_REACH) / FIXED_UNIT);

@@ -47,8 +47,9 @@ lanes slab_begin(const struct packet *p, const struct candidate *it);
  * floats, which is enough for all rays but those that come past many leaves. */
 lane_mask stage_box(const struct candidate *it, lane_mask open);
 
-/* planes.c, for a leaf with a pole: closes lanes whose ray passes near the pole and is proven to miss the leaf, or starts
- * exactly in the pole and meets no other point of the leaf. They would go through several stages, or all, in vain. */
+/* planes.c, for a leaf with a pole: closes lanes whose ray passes near the pole and is proven to miss the leaf, or
+ * starts exactly in the pole and meets no other point of the leaf. They would go through several stages, or all, in
+ * vain. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open);
 
 /* planes.c: returns the lanes of `open` whose ray starts exactly in a corner of the patch and meets no other point of
@@ -72,8 +73,8 @@ lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask o
  * Where they do not, one more root is sought, and the boxes are examined with both. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
-/* resultant.c: sets the form and, with polish, Bezout's resultant r of a and b in Bernstein form. Closes lanes where that
- * has no sign variation. */
+/* resultant.c: sets the form and, with polish, Bezout's resultant r of a and b in Bernstein form. Closes lanes where
+ * that has no sign variation. */
 lane_mask stage_resultant(struct candidate *it, lane_mask open);
 
 /* resultant.c: finds one root of r from its control polygon, and another one if that is not alone. Closes lanes where
