@@ -367,6 +367,46 @@ static void of_what_touches_to_the_third_order_little_is_looked_at(void **state)
   assert_in_range(most, 0, WORK_MOST);
 }
 
+/* A quarter of a disc round the origin, flat in y = 0, with a pole in its middle. */
+static void disc_quarter(size_t quarter, world_net net)
+{
+  cone_quarter(quarter, net);
+  for (int e = 0; e < 16; e++) {
+    for (int k = 0; k < 3; k += 2) net[e / 4][e % 4][k] = net[3][e % 4][k] * (e / 4) / 3;
+    net[e / 4][e % 4][1] = 0;
+  }
+}
+
+/* A ray in the plane of a flat patch meets curves. Where these cross a side of a box aslant is known no better on
+ * smaller boxes. */
+static void of_what_lies_in_a_plane_little_is_looked_at(void **state)
+{
+  (void)state;
+  enum { PLANE_RAYS = 100, WORK_MOST = 700 };
+  struct random random = {SEED + 7};
+  world_net nets[4];
+  struct world world;
+  struct hit_list list;
+  uint64_t most = 0;
+  for (size_t n = 0; n < 4; n++) disc_quarter(n, nets[n]);
+  world_open(&world, nets, 4, NULL);
+  for (int n = 0; n < PLANE_RAYS; n++) {
+    const double angle = random_between(&random, 0, 4 * acos(0)), off = random_between(&random, 0.1, 0.9);
+    const double c = cos(angle), s = sin(angle);
+    const struct ray ray = {
+      .origin = {-5 * c - off * s, 0, -5 * s + off * c}, .direction = {c, 0, s}, .t_max = INFINITY};
+    const uint64_t before = tracer_counts(world.tracer)->work;
+    assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+    const uint64_t work = tracer_counts(world.tracer)->work - before;
+    most = work > most ? work : most;
+    assert_int_equal(list.certainty, CERTAINTY_GRAZING);
+    assert_true(list.count > 0);
+  }
+  print_message("in a plane: work %d at most\n", (int)most);
+  assert_in_range(most, 0, WORK_MOST);
+  world_close(&world);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
@@ -378,6 +418,7 @@ int main(void)
                                      cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
                                      cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open),
                                      cmocka_unit_test(next_to_a_tip_nothing_is_left_open),
-                                     cmocka_unit_test(of_what_touches_to_the_third_order_little_is_looked_at)};
+                                     cmocka_unit_test(of_what_touches_to_the_third_order_little_is_looked_at),
+                                     cmocka_unit_test(of_what_lies_in_a_plane_little_is_looked_at)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

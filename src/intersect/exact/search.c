@@ -163,6 +163,11 @@ static bool box_small(const struct search *s, const struct box *box, enum verdic
          (verdict == VERDICT_POINT || s->extent[0] * box->size_u + s->extent[1] * box->size_v <= SEARCH_RESOLUTION);
 }
 
+/* Where a curve crosses a side of a box aslant, the place is known no better than the polynomial's error over the slant,
+ * on small boxes as on large ones. Down to a slant of about 1 : FLAT_SLANT, as of ties, it is told with that error; what
+ * is flatter is halved until all of a side is on the ray as far as can be told. */
+#define FLAT_SLANT 256
+
 /* Tries to decide the box where the two polynomials are one and the ray meets curves. The first point on them may be a
  * hit. If it lies before the ray's start, the point just after the start takes its place, or halving goes on. */
 static bool box_flat(struct search *s, struct box *box, const double error[2])
@@ -170,16 +175,17 @@ static bool box_flat(struct search *s, struct box *box, const double error[2])
   double u = 0, v = 0, off = 0;
   const enum curves curves = curves_begin(box, error, s->window.depth.to_t < 0 ? -1 : 1, &u, &v, &off);
   if (curves != CURVES_BEGIN) return curves == CURVES_NONE;
-  if (!(window_length(&s->window, off) <= s->resolution)) return false;
+  const double t_error = real_max(window_length(&s->window, off), s->resolution);
+  if (!(t_error <= FLAT_SLANT * s->resolution)) return false;
   const struct ray *ray = s->window.judge->asked->ray;
-  const double begin = ray->t_min + s->resolution;
+  const double begin = ray->t_min + t_error;
   double t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
   if (!(t > begin)) {
-    if (!curves_at(box, error, depth_of_t(&s->window.depth, begin + s->resolution), &u, &v)) return false;
+    if (!curves_at(box, error, depth_of_t(&s->window.depth, begin + t_error), &u, &v)) return false;
     t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
     if (!(t > begin && t < ray->t_max)) return false;
   }
-  window_tell_maybe(&s->window, box, u, v, t, s->resolution);
+  window_tell_maybe(&s->window, box, u, v, t, t_error);
   return true;
 }
 
