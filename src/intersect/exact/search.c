@@ -115,9 +115,11 @@ static bool box_zoom(struct search *s, const struct box *box)
   struct search closer = search_closer(s, box);
   struct zoomed zoomed;
   int zeros[4];
-  (void)pole_zeros(s, box, zeros); /* or there are none */
+  const bool met = pole_zeros(s, box, zeros);
   judge_spend(s->window.judge, WORK_ZOOM);
-  if (!zoom_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, zeros, &zoomed)) {
+  const int known = zoom_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, zeros, &zoomed);
+  closer.dependent = known < 2;
+  if (known < (met ? 1 : 2)) {
     s->dependent = true;
     return false;
   }
@@ -202,7 +204,7 @@ static bool box_decide(struct search *s, struct box *box)
   double error[2];
   search_box_error(s, box, error);
   const enum verdict verdict = box_test(box, error);
-  if (verdict == VERDICT_EMPTY || (s->dependent && s->window.zooms == 0 && box_flat(s, box, error))) return true;
+  if (verdict == VERDICT_EMPTY || (s->dependent && box_flat(s, box, error))) return true;
   double root[2] = {0.5, 0.5}, radius[2];
   if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius)) {
     struct exact_root found = window_root(&s->window, box, root, radius);

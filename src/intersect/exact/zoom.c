@@ -183,7 +183,7 @@ static void divide_powers(fixed *c, int stride, bool high)
   c[0] = high ? c1 + second : c1 - second, c[stride] = second, c[2 * stride] = c3, c[3 * stride] = 0;
 }
 
-bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], const int zeros[4], struct zoomed *out)
+int zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], const int zeros[4], struct zoomed *out)
 {
   fixed c[3][4][4];
   double error = 2 * zoom->error;
@@ -201,19 +201,20 @@ bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], co
   const bool by_v = fabs(bv) + fabs(av) > fabs(bu) + fabs(au);
   double p = by_v ? bv : bu, q = by_v ? -av : -au;
   const double largest = fmax(fabs(p), fabs(q));
-  if (!(largest > 0)) return false;
-  p /= largest, q /= largest;
+  p = largest > 0 ? p / largest : 1, q = largest > 0 ? q / largest : 0;
   const fixed rows[2][2] = {{fixed_from(p), fixed_from(q)}, {-fixed_from(q), fixed_from(p)}};
+  int known = 0;
   for (int s = 0; s < 2; s++) {
     fixed combination[4][4];
     zoom_combine(c[0], c[1], rows[s][0], rows[s][1], combination);
     const double sum = size_sum(combination);
-    if (!(sum > error)) return false;
-    net_of(combination, 1 / sum, out->net[s]);
-    out->error[s] = error / sum + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
+    if (!(sum > error)) continue;
+    net_of(combination, 1 / sum, out->net[known]);
+    out->error[known++] = error / sum + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
   }
+  if (known == 1) memcpy(out->net[1], out->net[0], sizeof out->net[0]), out->error[1] = out->error[0];
   set_depth(zoom, c[2], out);
-  return true;
+  return known;
 }
 
 /* The same in fixed point, for a whole net. */

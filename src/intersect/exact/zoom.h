@@ -59,8 +59,9 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
 
 /* The box of the patch with low corner (low[0], low[1]). zeros: how often a and b are exactly 0 along each of its
  * borders (geometry/edges.h); both are divided by the distance from there as often, and else their roots are the same.
- * Returns false if a combination is zero as far as fixed point can tell; then *out means nothing. */
-bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], const int zeros[4], struct zoomed *out);
+ * Returns how many of the two combinations are not zero as far as fixed point can tell: 2; 1, both nets then being that
+ * one; or 0, and the nets mean nothing. */
+int zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], const int zeros[4], struct zoomed *out);
 
 /* How a ray passes a border of the patch that is one point. */
 enum zoom_pole {
