@@ -217,7 +217,8 @@ static bool box_decide(struct search *s, struct box *box)
   if (!s->dependent && window_touched(&s->window, box, error, s->window.zooms == 0 && border == NO_BORDER, &bent_flat))
     return true;
   const bool flat = verdict != VERDICT_OPEN, small = flat && box_small(s, box, verdict);
-  if ((flat || bent_flat) && box_asks_zoom(s, box, flat) && border == NO_BORDER && box_zoom(s, box)) return true;
+  const bool zoomed = (flat || bent_flat) && (box_asks_zoom(s, box, flat) || (!s->dependent && pole_asks_zoom(s, box)));
+  if (zoomed && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;
   search_tell_maybe(s, box, small);
   return true;
