@@ -1,5 +1,6 @@
 /* How finely patches are cut if `split` is auto. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "cmocka_test.h"
 #include "intersect/model.h"
@@ -49,6 +50,13 @@ static double page(struct random *random, int i, int j)
 
 /* A third of a pipe. */
 static double gutter(struct random *random, int i, int j) { return 6 * page(random, i, j); }
+
+/* Bent along v only, by half of what the patch is wide, so that boxes along it are not mostly air. */
+static double arch(struct random *random, int i, int j)
+{
+  (void)random, (void)i;
+  return 0.5 * (j == 1 || j == 2);
+}
 
 /* The width, relative to the length, of a patch that is a point at u = 0; 0: it is none. */
 static double pointed;
@@ -174,6 +182,23 @@ static void rods_are_cut_across(void **state)
   }
 }
 
+/* A ribbon that bends along its length is cut along it only, and as far however long it is. */
+static void ribbons_are_cut_along(void **state)
+{
+  (void)state;
+  static const double lengths[] = {1e3, 1e5, 1e7, 1e9};
+  int first[2];
+  for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
+    int split[2], middle[2];
+    cut_of(arch, lengths[k], 1, (double[2]){0, 0}, split, middle);
+    print_message("%g long: %d x %d\n", lengths[k], split[0], split[1]);
+    if (k == 0) memcpy(first, split, sizeof first);
+    assert_int_equal(split[0], 1);
+    assert_in_range(split[1], 2, 64);
+    assert_int_equal(split[1], first[1]);
+  }
+}
+
 /* The boxes of a long patch aslant to the axes are mostly air. So it is cut along its long side, until its leaves are
  * about as long as wide, or are 64; but not into more than a quarter of a million leaves in all. */
 static void long_patches_aslant_are_cut_along(void **state)
@@ -219,6 +244,7 @@ int main(void)
                                      cmocka_unit_test(patches_side_by_side_are_cut_less),
                                      cmocka_unit_test(sheets_in_a_stack_are_cut_finer),
                                      cmocka_unit_test(rods_are_cut_across),
+                                     cmocka_unit_test(ribbons_are_cut_along),
                                      cmocka_unit_test(long_patches_aslant_are_cut_along),
                                      cmocka_unit_test(cones_are_cut_before_poles)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,10 +14,9 @@
  * degree. */
 #define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
 
-/* A slender patch is SLENDER to SLENDER_MOST times as long as wide. The root of that many leaves along it make it good.
- * All of them may lie in the plane of a ray, and exact.h must have room for them. */
+/* A slender patch is more than SLENDER times as long as wide, however much more. All of its leaves may lie in the plane
+ * of a ray, and exact.h must have room for them. */
 #define SLENDER 16.0
-#define SLENDER_MOST ((double)SLENDER_SPLIT_MAX * SLENDER_SPLIT_MAX)
 enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 
 /* A long patch is this many times as long as wide. If it bends across, as a pipe's quarter does, it is cut into up to
@@ -86,7 +85,7 @@ static void split_along(const struct model_patch *patch, const struct split_limi
   const int side = whole->first[1] > whole->first[0];
   const double along = whole->first[side], across = whole->first[1 - side], bend = whole->second[2 * side];
   split[0] = split[1] = 1;
-  if (along > SLENDER * across && along <= SLENDER_MOST * across) {
+  if (along > SLENDER * across) {
     uint16_t *cut = &split[side];
     while (2 * *cut <= limit->any * limit->any && 2 * *cut <= SLENDER_SPLIT_MAX && along > 2 * *cut * across &&
            bend / *cut + 2 * whole->second[1] > 2 * limit->turn * *cut * across)
