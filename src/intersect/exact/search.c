@@ -165,9 +165,9 @@ static bool box_small(const struct search *s, const struct box *box, enum verdic
          (verdict == VERDICT_POINT || s->extent[0] * box->size_u + s->extent[1] * box->size_v <= SEARCH_RESOLUTION);
 }
 
-/* Where a curve crosses a side of a box aslant, the place is known no better than the polynomial's error over the slant,
- * on small boxes as on large ones. Down to a slant of about 1 : FLAT_SLANT, as of ties, it is told with that error; what
- * is flatter is halved until all of a side is on the ray as far as can be told. */
+/* Where a curve crosses a side of a box aslant, the place is known no better than the polynomial's error over the
+ * slant, on small boxes as on large ones. Down to a slant of about 1 : FLAT_SLANT, as of ties, it is told with that
+ * error; what is flatter is halved until all of a side is on the ray as far as can be told. */
 #define FLAT_SLANT 256
 
 /* Tries to decide the box where the two polynomials are one and the ray meets curves. The first point on them may be a

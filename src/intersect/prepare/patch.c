@@ -24,8 +24,8 @@ enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 #define LONG 4.0
 enum { ROD_SPLIT_MAX = 2 };
 
-/* The box of a long leaf aslant to the axes is mostly air. A long patch is cut along as long as that leaves no more than
- * this part of its boxes' surface, by which the visits of rays grow. A choice of speed. */
+/* The box of a long leaf aslant to the axes is mostly air. A long patch is cut along as long as that leaves no more
+ * than this part of its boxes' surface, by which the visits of rays grow. A choice of speed. */
 #define LESS_AIR (2.0 / 3)
 
 /* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
