@@ -73,6 +73,7 @@ static void normals_next_to_poles_are_those_of_the_surface(void **state)
         ray.origin[c] = random_between(&random, -3, 3), ray.direction[c] = at[c] - ray.origin[c];
       const struct hit hit = world_closest(&world, &ray);
       if (hit.patch == HIT_NONE || hit.certainty != CERTAINTY_CERTAIN) continue;
+      if (hit.u == 0) continue; /* from here a cusp's end is its point; Su x Sv is 0 there */
       certain[n % KINDS]++;
       const double off = normal_off(net[0], &hit, hit.u);
       if (!(off <= SURE)) fail_msg("kind %d, u %.3g v %.3g: the normal is off by %.2g", n % KINDS, hit.u, hit.v, off);
