@@ -23,8 +23,8 @@ struct count {
   size_t place;                     /* T differs by more than DIFFERENT: not only the last bits of certain hits */
   size_t bits;                      /* T, U or V differ at all */
   size_t company;                   /* an answer depends on the rays beside it */
-  size_t occlusion;                 /* any hit is found where no closest hit is, or the reverse */
   size_t tied;                      /* it does, in its last places, with another hit at hand */
+  size_t occlusion;                 /* any hit is found where no closest hit is, or the reverse */
   double worst;                     /* the largest difference of T in floors, of two certain hits */
 };
 

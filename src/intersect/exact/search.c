@@ -210,8 +210,10 @@ static bool box_decide(struct search *s, struct box *box)
     struct exact_root found = window_root(&s->window, box, root, radius);
     const bool far = pole_far(s, box, root), zoomed = far ? root_asks_zoom(s, &found, border) : pole_asks_zoom(s, box);
     if (zoomed && box_zoom(s, box)) return true;
-    if (far) judge_root(s->window.judge, &found);
-    if (far) return true;
+    if (far) {
+      judge_root(s->window.judge, &found);
+      return true;
+    }
   }
   bool bent_flat = false;
   if (!s->dependent && window_touched(&s->window, box, error, s->window.zooms == 0 && border == NO_BORDER, &bent_flat))

@@ -153,7 +153,7 @@ static void move_root(struct zoom *zoom, wide u, wide v, struct exact_root *root
 /* What the certificate says of a root. */
 struct proof {
   struct units units;
-  double bend, step, radius[2], alone; /* radius and alone in x and y */
+  double radius[2], alone; /* in x and y */
 };
 
 /* The certificate in these units, for a last step that went to (x,y). Returns whether it holds. */
