@@ -1,37 +1,7 @@
 /* Tiles in the order of Hilbert's curve. */
 #include "render/tile_list.h"
 
-#include <stdint.h>
 #include <stdlib.h>
-
-/* A tile during sorting. */
-struct place {
-  uint64_t way; /* distance along the curve */
-  size_t column, row;
-};
-
-/* The distance along the curve through a square of 2^32 tiles a side. Each step finds the quarter of the square that
- * contains the tile, and turns that quarter so that its curve runs as the whole one does. */
-static uint64_t hilbert(uint32_t x, uint32_t y)
-{
-  uint64_t way = 0;
-  for (uint32_t half = UINT32_C(1) << 31; half != 0; half /= 2) {
-    const bool right = (x & half) != 0, low = (y & half) != 0;
-    way += (uint64_t)half * half * (uint64_t)(right ? 3 - low : low);
-    if (!low) {
-      const uint32_t old = right ? ~x : x;
-      x = right ? ~y : y;
-      y = old;
-    }
-  }
-  return way;
-}
-
-static int compare(const void *a, const void *b)
-{
-  const uint64_t x = ((const struct place *)a)->way, y = ((const struct place *)b)->way;
-  return (x > y) - (x < y);
-}
 
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
@@ -42,38 +12,63 @@ static void cut(size_t begin, size_t length, size_t tile, size_t *out_begin, siz
   *out_length = least((tile + 1) * TILE_SIZE, begin + length) - *out_begin;
 }
 
-/* All tiles that meet the crop, in order; NULL if memory is short. */
-static struct place *all_places(const struct rectangle *crop, size_t *out_count)
+/* Tiles a side of the square that the curve fills, more than any picture has. The same curve fills its upper left part
+ * if that is smaller by an even power of two. */
+static const size_t CURVE_SIDE = (size_t)1 << 30;
+
+/* The way along the curve: the tiles that meet the crop, and those of them that the list gets. */
+struct way {
+  const struct rectangle *crop;
+  size_t left, top, right, bottom; /* columns and rows of tiles, the last two behind the end */
+  size_t skip, pieces;             /* tiles to pass by before the next one; one of so many is the list's */
+  struct tile_list *list;
+};
+
+static void take_tile(struct way *way, size_t column, size_t row)
 {
-  const size_t x = crop->x / TILE_SIZE, y = crop->y / TILE_SIZE;
-  const size_t columns = (crop->x + crop->width - 1) / TILE_SIZE - x + 1;
-  const size_t rows = (crop->y + crop->height - 1) / TILE_SIZE - y + 1;
-  struct place *places = calloc(columns * rows, sizeof *places);
-  *out_count = columns * rows;
-  if (places == NULL) return NULL;
-  for (size_t k = 0; k < columns * rows; k++) {
-    const size_t column = x + k % columns, row = y + k / columns;
-    places[k] = (struct place){hilbert((uint32_t)column, (uint32_t)row), column, row};
+  const bool ours = way->skip == 0;
+  way->skip = (ours ? way->pieces : way->skip) - 1;
+  if (!ours) return;
+  struct rectangle *tile = &way->list->tile[way->list->count++];
+  cut(way->crop->x, way->crop->width, column, &tile->x, &tile->width);
+  cut(way->crop->y, way->crop->height, row, &tile->y, &tile->height);
+}
+
+/* Follows the curve through a square of tiles. It comes to the quarters upper left, lower left, lower right and upper
+ * right, if it is neither `swapped` (x and y) nor `turned` (by 180 degrees); and it runs through the lower two as
+ * through the whole square, through the upper ones swapped, and through the last turned as well. */
+static void follow(struct way *way, size_t column, size_t row, size_t side, bool swapped, bool turned)
+{
+  if (column >= way->right || row >= way->bottom || column + side <= way->left || row + side <= way->top) return;
+  if (side == 1) {
+    take_tile(way, column, row);
+    return;
   }
-  qsort(places, columns * rows, sizeof *places, compare);
-  return places;
+  for (int quarter = 0; quarter < 4; quarter++) {
+    const bool right = quarter >= 2, low = quarter == 1 || quarter == 2;
+    const bool x = (swapped ? low : right) != turned, y = (swapped ? right : low) != turned;
+    follow(way, column + (x ? side / 2 : 0), row + (y ? side / 2 : 0), side / 2, low ? swapped : !swapped,
+           turned != (right && !low));
+  }
 }
 
 enum status tile_list_create(const struct rectangle *crop, size_t piece, size_t pieces, struct tile_list *out)
 {
-  size_t all;
+  struct tile_list list = {0};
+  struct way way = {.crop = crop,
+                    .left = crop->x / TILE_SIZE,
+                    .top = crop->y / TILE_SIZE,
+                    .right = (crop->x + crop->width - 1) / TILE_SIZE + 1,
+                    .bottom = (crop->y + crop->height - 1) / TILE_SIZE + 1,
+                    .skip = piece - 1,
+                    .pieces = pieces,
+                    .list = &list};
+  const size_t most = (way.right - way.left) * (way.bottom - way.top) / pieces + 1;
   *out = (struct tile_list){0};
-  struct place *places = all_places(crop, &all);
-  if (places == NULL) return STATUS_LIMIT;
-  struct tile_list list = {.tile = calloc(all / pieces + 1, sizeof *list.tile),
-                           .done = calloc(all / pieces + 1, sizeof *list.done)};
+  list.tile = calloc(most, sizeof *list.tile);
+  list.done = calloc(most, sizeof *list.done);
   const bool enough = list.tile != NULL && list.done != NULL;
-  for (size_t k = piece - 1; enough && k < all; k += pieces) {
-    struct rectangle *tile = &list.tile[list.count++];
-    cut(crop->x, crop->width, places[k].column, &tile->x, &tile->width);
-    cut(crop->y, crop->height, places[k].row, &tile->y, &tile->height);
-  }
-  free(places);
+  if (enough) follow(&way, 0, 0, CURVE_SIDE, false, false);
   if (enough) *out = list;
   else tile_list_destroy(&list);
   return enough ? STATUS_OK : STATUS_LIMIT;

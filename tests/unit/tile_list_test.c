@@ -62,6 +62,32 @@ static void the_order_is_a_walk(void **state)
   tile_list_destroy(&list);
 }
 
+/* Kept parts number their tiles in this order, so that it must not change; a crop has its part of it. */
+static void the_order_stays(void **state)
+{
+  (void)state;
+  static const size_t column[16] = {0, 1, 1, 0, 0, 0, 1, 1, 2, 2, 3, 3, 3, 2, 2, 3};
+  static const size_t row[16] = {0, 0, 1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 1, 1, 0, 0};
+  static const struct rectangle crops[] = {{0, 0, 128, 128}, {33, 31, 64, 97}, {0, 64, 1, 64}, {96, 0, 32, 128}};
+  for (size_t c = 0; c < sizeof crops / sizeof *crops; c++) {
+    const struct rectangle *crop = &crops[c];
+    struct tile_list list;
+    size_t next = 0;
+    assert_int_equal(tile_list_create(crop, 1, 1, &list), STATUS_OK);
+    for (size_t k = 0; k < 16; k++) {
+      const size_t x = column[k] * TILE_SIZE, y = row[k] * TILE_SIZE;
+      if (x + TILE_SIZE <= crop->x || y + TILE_SIZE <= crop->y || x >= crop->x + crop->width ||
+          y >= crop->y + crop->height)
+        continue;
+      assert_true(next < list.count);
+      assert_int_equal(list.tile[next].x / TILE_SIZE, column[k]);
+      assert_int_equal(list.tile[next++].y / TILE_SIZE, row[k]);
+    }
+    assert_int_equal(next, list.count);
+    tile_list_destroy(&list);
+  }
+}
+
 /* A picture expensive on its left half, in a disc, or towards its lower edge: no piece has 15 % more work than the
  * mean, for any N up to 30 of 60 x 40 tiles. If pieces were rows, one would have 27 % more. */
 static void pieces_are_equally_dear(void **state)
@@ -111,6 +137,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(pieces_have_each_pixel_once),
     cmocka_unit_test(the_order_is_a_walk),
+    cmocka_unit_test(the_order_stays),
     cmocka_unit_test(pieces_are_equally_dear),
     cmocka_unit_test(pixels_are_counted),
   };
