@@ -32,7 +32,7 @@ static const struct command_option OPTIONS[] = {
   SCENE_OPTIONS,
   COMMAND_INTEGER("steps", check.steps, 0, CHECK_MAX_STEPS, "number of steps",
                   "POV-Ray's u_steps and v_steps go from 1 to N; 0: none; default 6", "N"),
-  COMMAND_INTEGER("grid", check.grid, 0, MAX_GRID, "distance",
+  COMMAND_INTEGER("grid", check.grid, 0, MAX_GRID, "grid",
                   "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
   COMMAND_TEXT("povray", 0, check.program, "the program; default povray", "FILE"),
   COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),

@@ -240,7 +240,8 @@ static enum status store_option(const struct command *command, const struct comm
   case STORE_TRUE: *(bool *)field = true; return STATUS_OK;
   case STORE_NUMBER:
     if (value_number(argument, field)) return STATUS_OK;
-    return command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
+    return command_usage(command, "option '--%s': '%s' is no number from 0 up, such as 0.01 or 4/255", option->name,
+                         argument);
   case STORE_POSITIVE:
     if (!value_number(argument, &number) || number == 0)
       return command_usage(command, "'%s' is no %s", argument, option->what);
