@@ -182,7 +182,8 @@ static double coefficient_error(int n, double alpha, double beta, double error)
 
 /* r of the leaf's form, without its exact roots at the ends. */
 static struct polynomial resultant(const struct method *method, const struct method_planes *planes,
-                                   const struct form *form, const double size[2], double c[19], double bound[19])
+                                   const struct form *form, const double size[2], double c[bezout_MAX_DEGREE + 1],
+                                   double bound[bezout_MAX_DEGREE + 1])
 {
   const uint8_t *zeros = planes->leaf->zeros;
   if (method->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form->m, form->n, form->A, form->B, c);
@@ -240,7 +241,7 @@ void method_find(const struct method *method, const struct method_planes *planes
   form_net(form.m, form.n, method->basis, planes->a, form.A);
   form_net(form.m, form.n, method->basis, planes->b, form.B);
   const double size[2] = {largest(planes->a, form.m, form.n), largest(planes->b, form.m, form.n)};
-  double c[19], bound[19];
+  double c[bezout_MAX_DEGREE + 1], bound[bezout_MAX_DEGREE + 1];
   const struct polynomial r = resultant(method, planes, &form, size, c, bound);
   struct root_set roots = {.count = 0};
   out->count = out->found = 0;
