@@ -77,7 +77,7 @@ static void one_by_one(struct set_up *s)
     bool tame = all->certainty == CERTAINTY_CERTAIN;
     for (size_t k = 1; k < all->count; k++) tame &= all->hits[k].t > all->hits[k - 1].t * (1 + 1e-9);
     for (size_t k = 0; k < all->count && tame; k++) {
-      if (fabs(next.t - all->hits[k].t) > 1e-12 * next.t && wrong++ < 2) print_lists("next", s->kind, &ray, all);
+      if (!(fabs(next.t - all->hits[k].t) <= 1e-12 * next.t) && wrong++ < 2) print_lists("next", s->kind, &ray, all);
       ray.t_min = all->hits[k].t * (1 + 1e-10);
       next = world_closest(s->world, &ray);
       followed++;
