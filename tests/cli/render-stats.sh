@@ -15,7 +15,7 @@ time (pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 800x600 -
   3>&2 2>taken
 LC_ALL=C awk -F '[ :,]+' 'NR == FNR { gsub(",", "."); split($0, t, " "); process = t[1] + t[2]; next }
   /"cpu"/ { on = 1; next } /}/ { on = 0 } on { sum += $3 }
-  END { print sum < process + 0.01 ? "as much as the process" : sum " of " process }' taken a.json
+  END { print (sum > 0 && sum < process + 0.01 ? "as much as the process" : sum " of " process) }' taken a.json
 # Standard error reports the same numbers: for a scene that uses all stages, and one where nothing is proven.
 for solver in 'aberth { split 1 }' 'laguerre { form paper }'; do
   pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 40x30 --solver "$solver" --stats a.json 2>said

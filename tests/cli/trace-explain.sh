@@ -97,7 +97,7 @@ for k in $(seq 0 63); do sheet 1 translate $k/1000*z; done >sheets.pscn
 for k in $(seq 0 63); do sheet 1 translate $((k % 2))/1000*z; done >twins.pscn
 echo '0.1 0.2 -4 0 0.01 1' >ray
 for scene in sheets beside; do
-  pscn trace $scene.pscn --explain <ray | awk '/^candidate/ { n++ } END { print n < 8 ? "few" : n }'
+  pscn trace $scene.pscn --explain <ray | awk '/^candidate/ { n++ } END { print (n > 0 && n < 8 ? "few" : n + 0) }'
 done
 cuts() { sed -n 's|^candidate.*\(/[0-9]*\) x .*\(/[0-9]*\), .*|\1 \2|p' | sort | uniq -c; }
 pscn trace sheets.pscn --explain --solver 'bernstein { split 2 }' <ray | cuts

@@ -34,7 +34,7 @@ for peer in "${peers[@]}"; do
       count++
       if (!(f[at["ns_median"]] > 0)) { print name ": no time"; bad = 1 }
       error = f[at["t_99"]] + 0
-      if (count > 1 && !(error * gain < last)) { print name ": error " error " after " last; bad = 1 }
+      if (!(error > 0) || (count > 1 && !(error * gain < last))) { print name ": error " error " after " last; bad = 1 }
       last = error
     }
     END { print peer ": " count + 0 " meshes, the finest within " last; exit bad || count != 3 }' \

@@ -18,7 +18,7 @@ failed=0
 field() { sed -n "s/^ *$1  *= *\([0-9.e+-]*\).*/\1/p" idiff.out; }
 ours() { sed -n "s/^$1  *\([0-9.e+-]*\).*/\1/p" ours.out; }
 agree() {
-  awk -v a="$2" -v b="$3" -v r=$RELATIVE 'BEGIN { d = a - b; m = a < 0 ? -a : a; exit !((d < 0 ? -d : d) <= r * m) }' ||
+  awk -v a="$2" -v b="$3" -v r=$RELATIVE 'BEGIN { d = a - b; m = a < 0 ? -a : a; exit !(a != "" && b != "" && (d < 0 ? -d : d) <= r * m) }' ||
     { echo "$1: idiff $2, pscn $3"; failed=1; }
 }
 # check A B LIMIT
@@ -36,7 +36,7 @@ check() {
   place=$(sed -n 's/^ *Max error .*@ (\([0-9]*\), \([0-9]*\), \([^)]*\)).*/\1,\2 channel \3/p' idiff.out)
   grep -q "at pixel $place:" ours.out || { echo "idiff's worst: $place"; failed=1; }
   over=$(sed -n 's/^ *\([0-9]*\) pixels .* over .*/\1/p' idiff.out | tail -1)
-  [ "$over" = "$(sed -n 's/^over [0-9.e-]* *\([0-9]*\) pixels.*/\1/p' ours.out | tail -1)" ] ||
+  [ -n "$over" ] && [ "$over" = "$(sed -n 's/^over [0-9.e-]* *\([0-9]*\) pixels.*/\1/p' ours.out | tail -1)" ] ||
     { echo "idiff: $over pixels over $3"; failed=1; }
 }
 
