@@ -122,7 +122,7 @@ static void test_hits(void **state)
     }
     assert_true(length(off) < 1e-14);
     assert_true(fabs(length(hit->point) - 1) < 1e-3);
-    assert_true(hit->point_error < 1e-14 && hit->point_error >= 0 && hit->clearance > 0);
+    assert_true(hit->point_error < 1e-14 && hit->point_error >= 0 && hit->clearance > hit->point_error);
     off_by_something += hit->point_error > 0;
     assert_true(fabs(length(hit->normal) - 1) < 1e-14);
     assert_true(hit->patch < BALL_PATCHES && hit->reserved == 0);
