@@ -173,12 +173,12 @@ static void channels_tell_of_the_solver(void **state)
   assert_true(off > 0 && off < 4 * WIDTH * HEIGHT / 2);
 }
 
-/* The status of a pixel is that of its answer: certain by default, and never without polish. */
+/* The status of a pixel is that of its answer: certain by default, and never without polish. Either way a hit covers. */
 static void statuses_are_the_answers(void **state)
 {
   (void)state;
   const struct scene scene = scene_of();
-  const struct render_options options = options_of("status,patch");
+  const struct render_options options = options_of("status,patch,coverage");
   for (int certain = 0; certain < 2; certain++) {
     if (!certain) method_default(solver_find("newton", 6), &solver);
     else method_default(solver_at(0), &solver);
@@ -186,10 +186,10 @@ static void statuses_are_the_answers(void **state)
     struct render_stats stats;
     float *out = render(&scene, &options, &stats);
     for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
-      const bool hit = out[2 * n + 1] >= 0;
+      const bool hit = out[3 * n + 1] >= 0;
       const int misses = certain ? CHANNEL_MISS_CERTAIN : CHANNEL_MISS_GRAZING,
                 hits = certain ? CHANNEL_HIT_CERTAIN : CHANNEL_HIT_GRAZING;
-      assert_true(out[2 * n] == (float)(hit ? hits : misses));
+      assert_true(out[3 * n] == (float)(hit ? hits : misses) && out[3 * n + 2] == (float)hit);
     }
     free(out);
     assert_int_equal(certain ? stats.counts.certain : stats.counts.grazing, WIDTH * HEIGHT);
