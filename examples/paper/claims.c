@@ -207,9 +207,10 @@ static bool all_rest(const struct root_problem *problem, struct complex_number z
       for (int j = 0; j < n; j++)
         if (j != i) sum = complex_add(sum, complex_divide(one, complex_subtract(z[i], z[j])));
       move[i] = complex_divide(newton, complex_add(one, complex_multiply(newton, sum)));
-      longest = fmax(longest, complex_modulus(move[i]) / fmax(1, complex_modulus(z[i])));
+      const double length = complex_modulus(move[i]) / fmax(1, complex_modulus(z[i]));
+      if (!isfinite(length)) return false;
+      longest = fmax(longest, length);
     }
-    if (!isfinite(longest)) return false;
     for (int i = 0; i < n; i++) z[i] = complex_add(z[i], move[i]);
     if (longest < 1e-10) return true;
   }
