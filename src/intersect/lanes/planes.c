@@ -260,32 +260,66 @@ lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask 
   return leaves;
 }
 
-/* Lanes that may meet a leaf with a pole within the ray's range. A shadow ray whose light is in a cone's tip does not: it
- * ends just before the pole. Let G be the combination that aims at what is not still in the pole, m its least value there
- * and g its size in the pole, with errors. With W the weight of what is not still, G is above 0 from W = g/m on. Nearer to
- * the pole, x_k differs from the pole's by at most W times the most that it does anywhere. The factor 2 is for roundings.
- *
- * Where the ray meets the pole, as far as doubles tell, it is `along`. Boxes at the pole are never cleared, because a and b
- * are constant along its border, and every combination is less than its error there. Also r has a coefficient there that
- * may be zero. */
-static lane_mask planes_near_pole(const struct packet *p, struct candidate *it, lane_mask open)
+/* Control points of a leaf nearer to one another than this, in the patch's frame, are taken for one place: a tip whose
+ * points differ by roundings. A choice of speed; what is proven holds for any points. */
+#define TIP_SIZE 0x1p-44
+
+/* Whether control point n is so near to point `at`. */
+static bool in_tip(const struct leaf *leaf, int at, int n)
 {
-  const int at = from_pole(it->leaf, 0, 0);
-  const lanes e = it->line->error, depth = lanes_all(it->leaf->x[it->axis][at]);
-  lanes from, to, off;
+  for (int k = 0; k < 3; k++)
+    if (!(fabs(leaf->x[k][n] - leaf->x[k][at]) <= TIP_SIZE)) return false;
+  return true;
+}
+
+/* The first border of the leaf that is a point, but for roundings; -1: none. */
+static int tip_border(const struct leaf *leaf)
+{
+  for (int border = 0; border < 4; border++) {
+    int n = 1;
+    while (n < 4 && in_tip(leaf, edge_at(border, 0), edge_at(border, n))) n++;
+    if (n == 4) return border;
+  }
+  return -1;
+}
+
+/* Lanes that may meet a leaf with a pole, or a tip that is one but for roundings, within the ray's range. A shadow ray
+ * whose light is in a cone's tip does not: it ends just before the tip. Let G be the combination that aims at what is
+ * not in the tip, m its least value there and g its greatest size on what is, with errors. With W the weight of what is
+ * not, G is above 0 from W = g/m on. Nearer to the tip, x_k differs from a value in the tip by at most W times the most
+ * that it does anywhere. The factor 2 is for roundings.
+ *
+ * Where the ray meets all of the border, as far as doubles tell, it is `along`. Boxes at a pole are never cleared,
+ * because a and b are constant along its border, and every combination is less than its error there. Also r has a
+ * coefficient there that may be zero. */
+static lane_mask planes_near_tip(const struct packet *p, struct candidate *it, lane_mask open)
+{
+  const int border = tip_border(it->leaf);
+  if (border < 0) return open;
+  const int at = edge_at(border, 0);
+  const lanes e = it->line->error;
+  const double *x = it->leaf->x[it->axis];
+  bool still[16];
+  double first = x[at], last = x[at], low, high;
+  lanes from, to, off, A, B, size = {0}, g = {0};
+  for (int n = 0; n < 16; n++) still[n] = in_tip(it->leaf, at, n);
+  for (int k = 0; k < 4; k++) {
+    const int n = edge_at(border, k);
+    size = lanes_max(size, lanes_max(lanes_abs(it->a[n]), lanes_abs(it->b[n])));
+  }
+  const lanes least = aim(it, still, &A, &B), wrong = combination_error(it) * (lanes_abs(A) + lanes_abs(B));
+  for (int n = 0; n < 16; n++) {
+    if (!still[n]) continue;
+    first = real_min(first, x[n]), last = real_max(last, x[n]);
+    g = lanes_max(g, lanes_abs(A * it->a[n] + B * it->b[n]) + wrong);
+  }
+  depth_range(it, still, at, &low, &high);
+  const double way = real_max(last - x[at] - low, high + x[at] - first);
   ray_ends(p, it, p->t_max, &from, &to, &off);
   off += 2 * e;
-  const lanes outside = lanes_max(from - off - depth, depth - to - off);
-  it->along |= open & (lanes_abs(it->a[at]) <= e) & (lanes_abs(it->b[at]) <= e) & (outside <= 0);
-  if (!lanes_any(open & (outside > 0))) return open;
-  bool still[16];
-  lanes A, B;
-  double low, high;
-  still_at_pole(p, it, still);
-  const lanes least = aim(it, still, &A, &B), wrong = combination_error(it) * (lanes_abs(A) + lanes_abs(B));
-  depth_range(it, still, at, &low, &high);
-  const lanes beyond = least - wrong, g = lanes_abs(A * it->a[at] + B * it->b[at]) + wrong;
-  return open & ~((outside > 0) & (beyond > 0) & (outside * beyond > 2 * real_max(-low, high) * g));
+  const lanes outside = lanes_max(from - off - last, first - to - off), beyond = least - wrong;
+  it->along |= open & (size <= e) & (outside <= 0);
+  return open & ~((outside > 0) & (beyond > 0) & (outside * beyond > 2 * way * g));
 }
 
 lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask open)
@@ -295,7 +329,7 @@ lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask o
   if (!it->patch->method->polish) return open;
   if (it->leaf->pole && lanes_any(near)) near = planes_at_pole(it, near);
   if (lanes_any(near)) near = planes_aligned(it, near);
-  if (it->leaf->pole && lanes_any(near)) near = planes_near_pole(p, it, near);
+  if (lanes_any(near)) near = planes_near_tip(p, it, near);
   return near;
 }
 
