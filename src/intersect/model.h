@@ -120,6 +120,11 @@ struct oriented_box {
   uint32_t patch; /* the leaf's, from which data is needed at the same time */
 };
 
+/* The boxes along a node's leaf children, side by side; for its other children, ones that hold everything. */
+struct oriented_four {
+  float g[3][3][BVH_WIDTH], offset[3][BVH_WIDTH], half[3][BVH_WIDTH];
+};
+
 /* Which part of which patch a leaf is. */
 struct leaf_place {
   uint32_t patch;
@@ -155,6 +160,10 @@ struct model_copy {
   double W[3][3], b[3];
 };
 
+/* From this many surfaces on that a line crosses, rays take what waits in the order in which they reach it, whichever
+ * node it is below, so that little is tried behind a hit. With fewer crossings the sorting does not pay. */
+enum { MANY_CROSSINGS = 4 };
+
 /* How deep frames may nest, since the walk recurses into them. Boxes of still smaller things exclude fewer rays, but
  * nothing is missed; no scene has sizes in one place that fall by 2^8 this many times. */
 enum { MODEL_FRAMES = 48 };
@@ -169,6 +178,9 @@ struct model_tree {
   struct model_tree *inner; /* in the arena */
   size_t inner_count;
   double crossings; /* how many surfaces a line that meets the tree crosses, on average, about */
+  /* of each node, in the arena: a ray by itself is tried on these when it comes to the node. NULL: it is tried on the
+   * box along a leaf when it comes to the leaf */
+  struct oriented_four *along;
 };
 
 struct model {

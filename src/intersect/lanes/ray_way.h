@@ -10,22 +10,19 @@
 
 /* What goes on the stack is needed soon, and rays of a large scene visit other boxes than those before them. So it is
  * prefetched meanwhile. */
-LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, uint32_t child)
+LANES_INLINE void fetch_child(const struct model *model, const struct model_tree *tree, uint32_t child)
 {
   const uint32_t box = child & ~BVH_LEAF;
   if (child == box) {
-    __builtin_prefetch(&bvh->nodes[child]);
-    __builtin_prefetch(&bvh->nodes[child].child);
+    __builtin_prefetch(&tree->bvh.nodes[child]);
+    __builtin_prefetch(&tree->bvh.nodes[child].child);
+    if (tree->along) fetch(&tree->along[child], sizeof *tree->along);
   } else if (box < model->leaf_count) {
     __builtin_prefetch(&model->oriented[box]);
   }
 }
 
-/* From this many surfaces on that a line crosses, rays take what waits in the order in which they reach it, whichever
- * node it is below, so that little is tried behind a hit. With fewer crossings the sorting does not pay. Any hit is
- * found the sooner the less waits. */
-enum { MANY_CROSSINGS = 4 };
-
+/* Whether rays take what waits in the order in which they reach it. Any hit is found the sooner the less waits. */
 LANES_INLINE bool nearest_first(const struct bundle *b, const struct model_tree *tree)
 {
   return tree->crossings >= MANY_CROSSINGS && !b->packet[0].any && !b->packet[0].gather;
@@ -76,26 +73,27 @@ LANES_INLINE void ray_wait(struct ray_way *way, size_t from, float near, uint32_
 
 /* Goes down from a node to the nearest of its children, testing one ray on four boxes; the other children wait. Returns
  * whether the ray goes on. */
-LANES_INLINE bool ray_down(const struct bundle *b, const struct bvh *bvh, struct ray_way *way)
+LANES_INLINE bool ray_down(const struct bundle *b, const struct model_tree *tree, struct ray_way *way)
 {
-  const struct bvh_node *node = &bvh->nodes[way->child];
+  const struct bvh_node *node = &tree->bvh.nodes[way->child];
   const size_t from = sorted_from(way->nearest, way->top);
   float near[BVH_WIDTH];
-  unsigned sides = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
+  unsigned leaves, sides = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near, &leaves);
+  if (tree->along && sides & leaves) sides &= view_oriented_four(&b->view, way->lane, &tree->along[way->child], near);
   if (sides == 0) return ray_next(b, way);
   int next = __builtin_ctz(sides);
   for (sides &= sides - 1; sides; sides &= sides - 1) {
     const int side = __builtin_ctz(sides), farther = near[side] <= near[next] ? next : side;
     next = farther == side ? next : side;
     ray_wait(way, from, near[farther], node->child[farther]);
-    fetch_child(b->packet[0].model, bvh, node->child[farther]);
+    fetch_child(b->packet[0].model, tree, node->child[farther]);
   }
   if (way->top > from && way->stack[way->top - 1].near < near[next]) {
     ray_wait(way, from, near[next], node->child[next]);
     return ray_next(b, way);
   }
   way->child = node->child[next];
-  fetch_child(b->packet[0].model, bvh, way->child);
+  fetch_child(b->packet[0].model, tree, way->child);
   return true;
 }
 

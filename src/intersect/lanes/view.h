@@ -94,6 +94,11 @@ void view_set_ends(struct view *view, const struct packet packet[], int packets)
 /* view.c: view_boxes for rays that enter boxes by different sides. */
 void view_boxes_unlike(const struct view *view, const struct bvh_node *node, struct entries *out);
 
+/* view.c: view_oriented for one ray on the boxes along a node's leaf children: as bits, those that it may be in. Where
+ * it enters the slab across a leaf later than near[] says, near[] is moved there. */
+unsigned view_oriented_four(const struct view *view, unsigned lane, const struct oriented_four *box,
+                            float near[BVH_WIDTH]);
+
 /* The size of a row of four planes of a node, one for each child. */
 enum { NODE_ROW = sizeof(float[BVH_WIDTH]) };
 
@@ -220,10 +225,10 @@ LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
   return ray;
 }
 
-/* The node's children, as bits, that the ray passes before `end`, and where it enters them. The test is that of
- * view_boxes. */
+/* The node's children, as bits, that the ray passes before `end`, where it enters them, and which are leaf children.
+ * The test is that of view_boxes. */
 LANES_INLINE unsigned ray_view_boxes(const struct ray_view *ray, float end, const struct bvh_node *node,
-                                     float out_near[BVH_WIDTH])
+                                     float out_near[BVH_WIDTH], unsigned *out_leaves)
 {
   four_floats near = four_floats_all(0), far = four_floats_all(end);
   four_mask child;
@@ -234,6 +239,7 @@ LANES_INLINE unsigned ray_view_boxes(const struct ray_view *ray, float end, cons
     far = four_floats_min(last * ray->inverse[k] + ray->late[k], far);
   }
   memcpy(&child, node->child, sizeof child), memcpy(out_near, &near, sizeof near);
+  *out_leaves = four_mask_bits(child); /* BVH_LEAF is the sign */
   return four_mask_bits((near <= far * DEPTH_GROWTH) & (child != 0));
 }
 

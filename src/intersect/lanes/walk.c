@@ -106,10 +106,11 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
 }
 
 /* Whether the ray passes that leaf's box and is to be tried on the leaf now. If so, the leaf is prefetched. */
-LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
+LANES_INLINE bool ray_passes(struct bundle *b, const struct model_tree *tree, uint32_t box, unsigned lane)
 {
   const struct model *model = b->packet[0].model;
-  if (!box_passed(b, box, 1u << lane) || !bundle_put_off(b, box, 1u << lane)) return false;
+  if (!tree->along && !box_passed(b, box, 1u << lane)) return false;
+  if (!bundle_put_off(b, box, 1u << lane)) return false;
   if (box < model->leaf_count) fetch_leaf(model, box);
   return true;
 }
@@ -122,9 +123,9 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
   for (bool on = true; on && ray_looks(b, lane);) {
     const uint32_t box = way.child & ~BVH_LEAF;
     if (way.child == box) {
-      on = ray_down(b, &tree->bvh, &way);
+      on = ray_down(b, tree, &way);
     } else {
-      if (ray_passes(b, box, lane)) bundle_leaf(b, tree, box, 1u << lane);
+      if (ray_passes(b, tree, box, lane)) bundle_leaf(b, tree, box, 1u << lane);
       on = (b->live >> lane & 1) && ray_next(b, &way);
     }
   }
@@ -149,9 +150,9 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
       if (waits_at[lane] == 0 && !ray_looks(b, lane)) {
         rays &= ~(1u << lane);
       } else if (child == box) {
-        if (!ray_down(b, &tree->bvh, way)) rays &= ~(1u << lane);
+        if (!ray_down(b, tree, way)) rays &= ~(1u << lane);
       } else if (waits_at[lane] == 0) {
-        if (ray_passes(b, box, lane)) waits_at[lane] = child;
+        if (ray_passes(b, tree, box, lane)) waits_at[lane] = child;
         else if (!ray_next(b, way)) rays &= ~(1u << lane);
       } else {
         unsigned here = 0;
@@ -179,21 +180,22 @@ LANES_INLINE int most_alone(const struct bundle *b)
 }
 
 /* This many leaves, of some 1.2 KB each, exceed any processor's own caches. If the rays have nothing in common there,
- * waiting for memory costs more than they could share. */
+ * waiting for memory costs more than they could share; among sheets behind one another, so does going to what any of
+ * them comes to first. */
 enum { MANY_LEAVES = 1 << 14 };
 
-static bool rays_apart(const struct bundle *b)
+static bool rays_apart(const struct bundle *b, const struct model_tree *tree)
 {
   const struct model *model = b->packet[0].model;
-  return b->view.apart && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
+  return b->view.apart && (model->leaf_count >= MANY_LEAVES || tree->along) && !b->packet[0].tracer->warm;
 }
 
 /* Goes down from a node to the nearest of its children; the others wait. Returns whether that child is visited at
  * once. */
-LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, bool nearest, struct waiting *w,
+LANES_INLINE bool together_down(const struct bundle *b, const struct model_tree *tree, bool nearest, struct waiting *w,
                                 unsigned *rays, uint32_t *child)
 {
-  const struct bvh_node *node = &bvh->nodes[*child];
+  const struct bvh_node *node = &tree->bvh.nodes[*child];
   const size_t from = sorted_from(nearest, w->top);
   struct entries in;
   view_boxes(&b->view, node, &in);
@@ -208,7 +210,7 @@ LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, b
     }
     waiting_add(w, from, (struct waiting_key){other.first, other.rays, node->child[other.side], 0},
                 &in.near[other.side]);
-    fetch_child(b->packet[0].model, bvh, node->child[other.side]);
+    fetch_child(b->packet[0].model, tree, node->child[other.side]);
   }
   if (w->top > from && w->key[w->top - 1].first < next.first) {
     waiting_add(w, from, (struct waiting_key){next.first, next.rays, node->child[next.side], 0}, &in.near[next.side]);
@@ -253,7 +255,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
       if (rays) bundle_leaf(b, tree, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
       for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
-    } else if (together_down(b, &tree->bvh, nearest, &waiting, &rays, &child)) {
+    } else if (together_down(b, tree, nearest, &waiting, &rays, &child)) {
       continue;
     }
     if (looks >= LOOKS_AT_ONCE) bundle_looked(b, looks), looks = 0;
@@ -272,7 +274,7 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   if (tree->bvh.node_count == 0) return;
   if (b->depth > TOGETHER_DEEP || __builtin_popcount(rays) == 1)
     for (; rays; rays &= rays - 1) ray_walk(b, tree, 0, (unsigned)__builtin_ctz(rays));
-  else if (rays_apart(b)) rays_walk(b, tree, rays);
+  else if (rays_apart(b, tree)) rays_walk(b, tree, rays);
   else together_walk(b, tree, rays);
 }
 

@@ -82,7 +82,7 @@ static void sum_leaves(struct making *m)
 enum { LAYER_LEAVES = 1 << 15 };
 
 /* Whether there are more than `most` leaves in a layer, of patches that are kept. Layers are those of
- * tree_set_crossings, computed from patches. */
+ * tree_finish, computed from patches. */
 static bool too_many(const struct model *model, size_t most)
 {
   if (model->leaf_count <= most) return false;
@@ -338,7 +338,7 @@ enum status hierarchy_make(struct model *model, const struct team *team, const s
   bool finer = false;
   if (status == STATUS_OK && m.keep) status = crowd_cut_finer(&m, &finer);
   if (status == STATUS_OK && finer) status = make_again(&m);
-  if (status == STATUS_OK) tree_set_crossings(model);
+  if (status == STATUS_OK) status = tree_finish(model);
   end_arenas(&m, m.keep);
   memory_free(m.arenas);
   memory_free(m.leaves);

@@ -256,7 +256,7 @@ enum status tree_build(struct model *model, struct bvh_box boxes[], const struct
   return status;
 }
 
-/* ---- crossings ---- */
+/* ---- what rays meet in a tree ---- */
 
 /* The area of a leaf: that of the face, across its normal, of the box along it. */
 static double leaf_area(const struct oriented_box *box)
@@ -278,11 +278,16 @@ static double crossings_in(const struct model *model, const struct model_tree *t
   return 2 * leaf_area(&model->oriented[box]);
 }
 
-static void set_crossings(const struct model *model, struct model_tree *tree)
+/* Surfaces, which are as the numbers of lines that meet them. */
+struct surfaces {
+  double whole, nodes, leaves; /* of the tree; sums over the boxes of its nodes, and over those of its leaf children */
+  double crossings;            /* sum of crossings_in */
+};
+
+static void measure(const struct model *model, const struct model_tree *tree, struct surfaces *out)
 {
-  for (size_t k = 0; k < tree->inner_count; k++) set_crossings(model, &tree->inner[k]);
   struct bvh_box whole = BVH_EMPTY;
-  double sum = 0;
+  *out = (struct surfaces){0};
   for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
     const struct bvh_node *node = &tree->bvh.nodes[n / BVH_WIDTH];
     const size_t side = n % BVH_WIDTH;
@@ -290,14 +295,52 @@ static void set_crossings(const struct model *model, struct model_tree *tree)
     struct bvh_box box;
     for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
     if (child == 0) continue;
+    const double surface = box_surface(&box);
     if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
-    if (child & BVH_LEAF) sum += crossings_in(model, tree, child & ~BVH_LEAF, box_surface(&box));
+    *(child & BVH_LEAF ? &out->leaves : &out->nodes) += surface;
+    if (child & BVH_LEAF) out->crossings += crossings_in(model, tree, child & ~BVH_LEAF, surface);
   }
-  const double surface = box_surface(&whole);
-  tree->crossings = surface > 0 ? sum / surface : 0;
+  out->whole = box_surface(&whole), out->nodes += out->whole;
 }
 
-void tree_set_crossings(struct model *model) { set_crossings(model, &model->tree); }
+/* The boxes along a node's leaf children, side by side. */
+static void set_four(const struct model *model, const struct bvh_node *node, struct oriented_four *four)
+{
+  for (int side = 0; side < BVH_WIDTH; side++) {
+    const uint32_t box = node->child[side] & ~BVH_LEAF;
+    const bool leaf = node->child[side] != box && box < model->leaf_count;
+    const struct oriented_box all = {.half = {INFINITY, INFINITY, INFINITY}},
+                              *from = leaf ? &model->oriented[box] : &all;
+    for (int q = 0; q < 3; q++) {
+      for (int k = 0; k < 3; k++) four->g[k][q][side] = from->g[k][q];
+      four->offset[q][side] = from->offset[q], four->half[q][side] = from->half[q];
+    }
+  }
+}
+
+/* Sets tree->along where surfaces lie behind one another, as sheets do, so that a line that comes to a node meets more
+ * than one box of a leaf there. With fewer, reading them takes longer than it saves; if leaves are not kept, there is no
+ * room for them. */
+static bool set_along(const struct model *model, const struct surfaces *s, struct model_tree *tree)
+{
+  if (tree->crossings < MANY_CROSSINGS || s->leaves <= s->nodes || !model->leaves) return true;
+  tree->along = arena_alloc(model->arena, tree->bvh.node_count, sizeof *tree->along);
+  for (size_t n = 0; tree->along && n < tree->bvh.node_count; n++)
+    set_four(model, &tree->bvh.nodes[n], &tree->along[n]);
+  return tree->along;
+}
+
+static bool finish(const struct model *model, struct model_tree *tree)
+{
+  for (size_t k = 0; k < tree->inner_count; k++)
+    if (!finish(model, &tree->inner[k])) return false;
+  struct surfaces s;
+  measure(model, tree, &s);
+  tree->crossings = s.whole > 0 ? s.crossings / s.whole : 0;
+  return set_along(model, &s, tree);
+}
+
+enum status tree_finish(struct model *model) { return finish(model, &model->tree) ? STATUS_OK : STATUS_LIMIT; }
 
 void tree_free(struct model_tree *tree)
 {
