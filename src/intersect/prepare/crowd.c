@@ -68,14 +68,7 @@ static bool is_on_leaf(const struct model *model, const struct leaf *leaf, const
   return fabs(y[0] - on) <= ON_LEAF * leaf->slab[0].half;
 }
 
-/* Whether the box is that of another leaf that counts; twins do not, because a scene is answered as it is without
- * them. */
-static bool is_other(const struct search *s, uint32_t box)
-{
-  const struct model *model = s->model;
-  return box < model->leaf_count && box != s->own && !(model->twin && model->twin[model->oriented[box].patch]);
-}
-
+/* Counts other leaves around s->x; twins, which the tree has not, do not count. */
 static void search_tree(struct search *s, const struct model_tree *tree)
 {
   const struct model *model = s->model;
@@ -90,7 +83,7 @@ static void search_tree(struct search *s, const struct model_tree *tree)
       if (!in_node_box(node, side, at)) continue;
       if (child == box) wait[count++] = child;
       else if (model_is_tree(model, box)) search_tree(s, model_inner(model, tree, box));
-      else if (is_other(s, box))
+      else if (box < model->leaf_count && box != s->own)
         s->looks++, s->found += in_leaf_box(&model->oriented[box], at) && !is_on_leaf(model, &model->leaves[box], s->x);
     }
   }

@@ -319,8 +319,8 @@ static void set_four(const struct model *model, const struct bvh_node *node, str
 }
 
 /* Sets tree->along where surfaces lie behind one another, as sheets do, so that a line that comes to a node meets more
- * than one box of a leaf there. With fewer, reading them takes longer than it saves; if leaves are not kept, there is no
- * room for them. */
+ * than one box of a leaf there. With fewer, reading them takes longer than it saves; and for leaves that are not kept
+ * there is no room. */
 static bool set_along(const struct model *model, const struct surfaces *s, struct model_tree *tree)
 {
   if (tree->crossings < MANY_CROSSINGS || s->leaves <= s->nodes || !model->leaves) return true;
