@@ -24,7 +24,7 @@ struct candidate {
   struct leaf_root first; /* the first root found; meaningful only where it exists */
   /* stage_planes: */
   lanes a[16], b[16]; /* nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
-  lane_mask along;    /* in double precision, the ray seems to meet a curve on the leaf, or its pole */
+  lane_mask along;    /* in double precision, the ray seems to meet a curve on the leaf, or a tip */
   lanes alpha, beta;  /* largest |a|, |b|, of the nets at first, then of the form */
   /* stage_resultant: */
   lanes form_error;             /* of a coefficient of the form */

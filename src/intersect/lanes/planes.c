@@ -272,30 +272,26 @@ static bool in_tip(const struct leaf *leaf, int at, int n)
   return true;
 }
 
-/* The first border of the leaf that is a point, but for roundings; -1: none. */
-static int tip_border(const struct leaf *leaf)
+/* Whether the border of the leaf is a point, but for roundings. */
+static bool is_tip(const struct leaf *leaf, int border)
 {
-  for (int border = 0; border < 4; border++) {
-    int n = 1;
-    while (n < 4 && in_tip(leaf, edge_at(border, 0), edge_at(border, n))) n++;
-    if (n == 4) return border;
-  }
-  return -1;
+  for (int n = 1; n < 4; n++)
+    if (!in_tip(leaf, edge_at(border, 0), edge_at(border, n))) return false;
+  return true;
 }
 
-/* Lanes that may meet a leaf with a pole, or a tip that is one but for roundings, within the ray's range. A shadow ray
- * whose light is in a cone's tip does not: it ends just before the tip. Let G be the combination that aims at what is
- * not in the tip, m its least value there and g its greatest size on what is, with errors. With W the weight of what is
- * not, G is above 0 from W = g/m on. Nearer to the tip, x_k differs from a value in the tip by at most W times the most
- * that it does anywhere. The factor 2 is for roundings.
+/* Lanes that may meet a leaf, one border of which is a pole, or a tip that is one but for roundings, within the ray's
+ * range. A shadow ray whose light is in a cone's tip does not: it ends just before the tip. Let G be the combination
+ * that aims at what is not in the tip, m its least value there and g its greatest size on what is in it, with errors.
+ * With W the weight of what is not, G is above 0 from W = g/m on. Nearer to the tip, x_k differs from a value in the
+ * tip by at most W times the most that it does anywhere. The factor 2 is for roundings of the products; those of x_k are
+ * in `off`.
  *
  * Where the ray meets all of the border, as far as doubles tell, it is `along`. Boxes at a pole are never cleared,
  * because a and b are constant along its border, and every combination is less than its error there. Also r has a
  * coefficient there that may be zero. */
-static lane_mask planes_near_tip(const struct packet *p, struct candidate *it, lane_mask open)
+static lane_mask planes_near_tip(const struct packet *p, struct candidate *it, int border, lane_mask open)
 {
-  const int border = tip_border(it->leaf);
-  if (border < 0) return open;
   const int at = edge_at(border, 0);
   const lanes e = it->line->error;
   const double *x = it->leaf->x[it->axis];
@@ -329,7 +325,8 @@ lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask o
   if (!it->patch->method->polish) return open;
   if (it->leaf->pole && lanes_any(near)) near = planes_at_pole(it, near);
   if (lanes_any(near)) near = planes_aligned(it, near);
-  if (lanes_any(near)) near = planes_near_tip(p, it, near);
+  for (int border = 0; border < 4; border++)
+    if (lanes_any(near) && is_tip(it->leaf, border)) near = planes_near_tip(p, it, border, near);
   return near;
 }
 

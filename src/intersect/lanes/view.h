@@ -61,6 +61,14 @@ LANES_INLINE uint64_t node_sides(const struct bvh_node *node)
   return four_mask_words(child != 0);
 }
 
+/* The node's leaf children, as bits. */
+LANES_INLINE unsigned node_leaves(const struct bvh_node *node)
+{
+  four_mask child;
+  memcpy(&child, node->child, sizeof child);
+  return four_mask_bits(child < 0); /* BVH_LEAF is the sign */
+}
+
 /* A child of a node, and the rays that enter it. */
 struct entered {
   int side;
@@ -225,10 +233,10 @@ LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
   return ray;
 }
 
-/* The node's children, as bits, that the ray passes before `end`, where it enters them, and which are leaf children.
- * The test is that of view_boxes. */
+/* The node's children, as bits, that the ray passes before `end`, and where it enters them. The test is that of
+ * view_boxes. */
 LANES_INLINE unsigned ray_view_boxes(const struct ray_view *ray, float end, const struct bvh_node *node,
-                                     float out_near[BVH_WIDTH], unsigned *out_leaves)
+                                     float out_near[BVH_WIDTH])
 {
   four_floats near = four_floats_all(0), far = four_floats_all(end);
   four_mask child;
@@ -239,7 +247,6 @@ LANES_INLINE unsigned ray_view_boxes(const struct ray_view *ray, float end, cons
     far = four_floats_min(last * ray->inverse[k] + ray->late[k], far);
   }
   memcpy(&child, node->child, sizeof child), memcpy(out_near, &near, sizeof near);
-  *out_leaves = four_mask_bits(child); /* BVH_LEAF is the sign */
   return four_mask_bits((near <= far * DEPTH_GROWTH) & (child != 0));
 }
 

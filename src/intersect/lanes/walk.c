@@ -105,7 +105,8 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
   }
 }
 
-/* Whether the ray passes that leaf's box and is to be tried on the leaf now. If so, the leaf is prefetched. */
+/* Whether the ray passes that leaf's box, which may have been tried at the node (ray_down), and is to be tried on the
+ * leaf now. If so, the leaf is prefetched. */
 LANES_INLINE bool ray_passes(struct bundle *b, const struct model_tree *tree, uint32_t box, unsigned lane)
 {
   const struct model *model = b->packet[0].model;
@@ -180,14 +181,13 @@ LANES_INLINE int most_alone(const struct bundle *b)
 }
 
 /* This many leaves, of some 1.2 KB each, exceed any processor's own caches. If the rays have nothing in common there,
- * waiting for memory costs more than they could share; among sheets behind one another, so does going to what any of
- * them comes to first. */
+ * waiting for memory costs more than they could share. */
 enum { MANY_LEAVES = 1 << 14 };
 
-static bool rays_apart(const struct bundle *b, const struct model_tree *tree)
+static bool rays_apart(const struct bundle *b)
 {
   const struct model *model = b->packet[0].model;
-  return b->view.apart && (model->leaf_count >= MANY_LEAVES || tree->along) && !b->packet[0].tracer->warm;
+  return b->view.apart && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
 }
 
 /* Goes down from a node to the nearest of its children; the others wait. Returns whether that child is visited at
@@ -274,7 +274,7 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   if (tree->bvh.node_count == 0) return;
   if (b->depth > TOGETHER_DEEP || __builtin_popcount(rays) == 1)
     for (; rays; rays &= rays - 1) ray_walk(b, tree, 0, (unsigned)__builtin_ctz(rays));
-  else if (rays_apart(b, tree)) rays_walk(b, tree, rays);
+  else if (rays_apart(b)) rays_walk(b, tree, rays);
   else together_walk(b, tree, rays);
 }
 

@@ -81,8 +81,8 @@ static void sum_leaves(struct making *m)
  * costs more, cost less. */
 enum { LAYER_LEAVES = 1 << 15 };
 
-/* Whether there are more than `most` leaves in a layer, of patches that are kept. Layers are those of
- * tree_finish, computed from patches. */
+/* Whether there are more than `most` leaves in a layer, of patches that are kept. Layers are the tree's `crossings`,
+ * computed from patches. */
 static bool too_many(const struct model *model, size_t most)
 {
   if (model->leaf_count <= most) return false;

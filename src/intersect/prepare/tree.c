@@ -278,9 +278,9 @@ static double crossings_in(const struct model *model, const struct model_tree *t
   return 2 * leaf_area(&model->oriented[box]);
 }
 
-/* Surfaces, which are as the numbers of lines that meet them. */
+/* Surfaces of boxes; as many lines meet a box. */
 struct surfaces {
-  double whole, nodes, leaves; /* of the tree; sums over the boxes of its nodes, and over those of its leaf children */
+  double whole, nodes, leaves; /* of the tree; sums over the boxes of its nodes, and over those of leaves */
   double crossings;            /* sum of crossings_in */
 };
 
@@ -297,8 +297,9 @@ static void measure(const struct model *model, const struct model_tree *tree, st
     if (child == 0) continue;
     const double surface = box_surface(&box);
     if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
-    *(child & BVH_LEAF ? &out->leaves : &out->nodes) += surface;
     if (child & BVH_LEAF) out->crossings += crossings_in(model, tree, child & ~BVH_LEAF, surface);
+    else out->nodes += surface;
+    if (child & BVH_LEAF && (child & ~BVH_LEAF) < model->leaf_count) out->leaves += surface;
   }
   out->whole = box_surface(&whole), out->nodes += out->whole;
 }
