@@ -18,7 +18,9 @@ failed=0
 field() { sed -n "s/^ *$1  *= *\([0-9.e+-]*\).*/\1/p" idiff.out; }
 ours() { sed -n "s/^$1  *\([0-9.e+-]*\).*/\1/p" ours.out; }
 agree() {
-  awk -v a="$2" -v b="$3" -v r=$RELATIVE 'BEGIN { d = a - b; m = a < 0 ? -a : a; exit !(a != "" && b != "" && (d < 0 ? -d : d) <= r * m) }' ||
+  awk -v a="$2" -v b="$3" -v r=$RELATIVE 'BEGIN {
+    d = a - b; m = a < 0 ? -a : a
+    exit !(a != "" && b != "" && (d < 0 ? -d : d) <= r * m) }' ||
     { echo "$1: idiff $2, pscn $3"; failed=1; }
 }
 # check A B LIMIT

@@ -173,7 +173,8 @@ static void channels_tell_of_the_solver(void **state)
   assert_true(off > 0 && off < 4 * WIDTH * HEIGHT / 2);
 }
 
-/* The status of a pixel is that of its answer: certain by default, and never without polish. Either way a hit covers. */
+/* The status of a pixel is that of its answer: certain by default, and never without polish. Either way a hit
+ * covers. */
 static void statuses_are_the_answers(void **state)
 {
   (void)state;

@@ -298,23 +298,25 @@ static lane_mask planes_near_tip(const struct packet *p, struct candidate *it, i
   bool still[16];
   double first = x[at], last = x[at], low, high;
   lanes from, to, off, A, B, size = {0}, g = {0};
-  for (int n = 0; n < 16; n++) still[n] = in_tip(it->leaf, at, n);
+  for (int n = 0; n < 16; n++) {
+    still[n] = in_tip(it->leaf, at, n);
+    if (still[n]) first = real_min(first, x[n]), last = real_max(last, x[n]);
+  }
   for (int k = 0; k < 4; k++) {
     const int n = edge_at(border, k);
     size = lanes_max(size, lanes_max(lanes_abs(it->a[n]), lanes_abs(it->b[n])));
   }
-  const lanes least = aim(it, still, &A, &B), wrong = combination_error(it) * (lanes_abs(A) + lanes_abs(B));
-  for (int n = 0; n < 16; n++) {
-    if (!still[n]) continue;
-    first = real_min(first, x[n]), last = real_max(last, x[n]);
-    g = lanes_max(g, lanes_abs(A * it->a[n] + B * it->b[n]) + wrong);
-  }
-  depth_range(it, still, at, &low, &high);
-  const double way = real_max(last - x[at] - low, high + x[at] - first);
   ray_ends(p, it, p->t_max, &from, &to, &off);
   off += 2 * e;
-  const lanes outside = lanes_max(from - off - last, first - to - off), beyond = least - wrong;
+  const lanes outside = lanes_max(from - off - last, first - to - off);
   it->along |= open & (size <= e) & (outside <= 0);
+  if (!lanes_any(open & (outside > 0))) return open;
+  const lanes least = aim(it, still, &A, &B), wrong = combination_error(it) * (lanes_abs(A) + lanes_abs(B));
+  for (int n = 0; n < 16; n++)
+    if (still[n]) g = lanes_max(g, lanes_abs(A * it->a[n] + B * it->b[n]) + wrong);
+  depth_range(it, still, at, &low, &high);
+  const double way = real_max(last - x[at] - low, high + x[at] - first);
+  const lanes beyond = least - wrong;
   return open & ~((outside > 0) & (beyond > 0) & (outside * beyond > 2 * way * g));
 }
 

@@ -296,10 +296,11 @@ static void measure(const struct model *model, const struct model_tree *tree, st
     for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
     if (child == 0) continue;
     const double surface = box_surface(&box);
+    const uint32_t number = child & ~BVH_LEAF;
     if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
-    if (child & BVH_LEAF) out->crossings += crossings_in(model, tree, child & ~BVH_LEAF, surface);
-    else out->nodes += surface;
-    if (child & BVH_LEAF && (child & ~BVH_LEAF) < model->leaf_count) out->leaves += surface;
+    if (child == number) out->nodes += surface;
+    else out->crossings += crossings_in(model, tree, number, surface);
+    if (child != number && number < model->leaf_count) out->leaves += surface;
   }
   out->whole = box_surface(&whole), out->nodes += out->whole;
 }

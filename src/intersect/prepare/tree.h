@@ -38,8 +38,8 @@ static inline double box_surface(const struct bvh_box *box)
 }
 
 /* Sets `crossings` and `along` of the model's tree and of those in it, once boxes along leaves and the objects' trees
- * exist. A line through a convex body of surface S makes 2 A / S crossings on average, where A is the area of what is in
- * it (Crofton's formula). Leaves whose boxes tell nothing count as none. STATUS_LIMIT if memory is short. */
+ * exist. A line through a convex body of surface S makes 2 A / S crossings on average, where A is the area of what is
+ * in it (Crofton's formula). Leaves whose boxes tell nothing count as none. STATUS_LIMIT if memory is short. */
 enum status tree_finish(struct model *model) STATUS_MUST_CHECK;
 
 /* Frees the nodes of this tree and of those in it. */
