@@ -23,7 +23,7 @@ static void print_solver_help(void)
 {
   puts("usage: solver NAME { ITEM VALUE ... }          in a scene\n"
        "       --solver 'NAME { ITEM VALUE ... }'       of render, trace, roots, dump and check\n"
-       "How roots are found, and of what; the braces and each item may be left out.\n\n"
+       "How roots are found, and of what. Each item may be left out; so may the braces, if they are empty.\n\n"
        "Names:");
   for (size_t k = 0; k < solver_count(); k++) printf("  %-15s %s\n", solver_at(k)->name, solver_at(k)->summary);
   puts("\nItems:");

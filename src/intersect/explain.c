@@ -69,11 +69,7 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
   double w[16], unused[16];
   local_ray_make(patch, &ray->ray, &local);
   local_ray_nets(&local, leaf->x, planes.a, planes.b, w);
-  planes.error = local.error;
-  if (leaf->form != NULL) {
-    local_ray_nets(&local, leaf->form->x, planes.a, planes.b, unused);
-    planes.error = planes.error * leaf->form->size + 2 * leaf->form->excess;
-  }
+  if (leaf->form != NULL) local_ray_nets(&local, leaf->form->x, planes.a, planes.b, unused);
   memcpy(story->a, planes.a, sizeof story->a), memcpy(story->b, planes.b, sizeof story->b);
   if (!story->solved) return;
   struct method_roots points;

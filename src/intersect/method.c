@@ -4,7 +4,6 @@
 #include "algebra/sylvester.h"
 #include "base/real.h"
 #include "intersect/method.h"
-#include "intersect/resultant_error.h"
 
 #define BEZOUT_REAL double
 #define BEZOUT_NAME(name) bezout_##name
@@ -91,25 +90,22 @@ static void value_and_slope(int n, const double c[4], double v, double *value, d
   *value = b[0] + v * (b[1] - b[0]);
 }
 
-/* Where two roots nearly share u, the null vector is nearly ambiguous, and v is off by far more than u. From there the
- * Gauss-Newton method on both plane polynomials, at this u, still finds v. A step longer than the reach means that v
- * was too far off. A choice, of starting points only: two steps from within the reach end at 1e-12 if the curve they
- * follow bends by 1. */
-enum { NULL_VECTOR_STEPS = 2 };
-#define NULL_VECTOR_REACH 1e-3
+/* Where two roots nearly share u, or the leaf is nearly of a lower degree, the null vector is nearly ambiguous, and v is
+ * off by far more than u. From there, or from the middle if it is not even near the leaf, the Gauss-Newton method on
+ * both plane polynomials, at this u, still finds v: a step is taken if it brings them nearer to 0. */
+enum { NULL_VECTOR_STEPS = 4 };
 
 static double null_vector(int n, const double p[4], const double q[4])
 {
-  double num[2], den[2], first_better;
+  double num[2], den[2], first_better, f, df, g, dg, least = INFINITY;
   bezout_null_vector(n, p, q, num, den, &first_better);
-  double v = first_better > 0 ? num[0] / den[0] : num[1] / den[1];
-  for (int step = 0; step < NULL_VECTOR_STEPS; step++) {
-    double f, df, g, dg;
-    value_and_slope(n, p, v, &f, &df);
-    value_and_slope(n, q, v, &g, &dg);
-    const double move = (f * df + g * dg) / (df * df + dg * dg);
-    if (!(fabs(move) <= NULL_VECTOR_REACH)) break;
-    v -= move;
+  double v = first_better > 0 ? num[0] / den[0] : num[1] / den[1], next = v >= -1 && v <= 2 ? v : 0.5;
+  for (int step = 0; step <= NULL_VECTOR_STEPS; step++) {
+    value_and_slope(n, p, next, &f, &df);
+    value_and_slope(n, q, next, &g, &dg);
+    if (!(f * f + g * g < least)) break;
+    v = next, least = f * f + g * g;
+    next = v - (f * df + g * dg) / (df * df + dg * dg);
   }
   return v;
 }
@@ -171,30 +167,16 @@ static double largest(const double net[16], int m, int n)
   return size;
 }
 
-/* The bound on the errors of r's coefficients, for nets of size alpha and beta. */
-static double coefficient_error(int n, double alpha, double beta, double error)
+/* r of the leaf's form, without its exact roots at the ends. Its coefficients are taken as they are: bounds on their
+ * errors known beforehand (resultant_error.h) can exceed them all where the ray runs along the axis of a height field,
+ * and then nothing would count as a root. */
+static struct polynomial resultant(const struct method *method, const struct leaf *leaf, const struct form *form,
+                                   double c[bezout_MAX_DEGREE + 1])
 {
-  double power = 1;
-  alpha += error, beta += error;
-  for (int k = 0; k < n; k++) power *= alpha * beta;
-  return RESULTANT_ERROR(n, power, alpha, beta, error);
-}
-
-/* r of the leaf's form, without its exact roots at the ends. */
-static struct polynomial resultant(const struct method *method, const struct method_planes *planes,
-                                   const struct form *form, const double size[2], double c[bezout_MAX_DEGREE + 1],
-                                   double bound[bezout_MAX_DEGREE + 1])
-{
-  const uint8_t *zeros = planes->leaf->zeros;
   if (method->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form->m, form->n, form->A, form->B, c);
   else bezout_determinant(form->m, form->n, form->A, form->B, c);
   struct polynomial r = {2 * form->m * form->n, method->basis, c, NULL};
-  if (method->basis == BASIS_BERNSTEIN) {
-    double choose = coefficient_error(form->n, size[0], size[1], planes->error);
-    for (int k = 0; k <= r.degree; k++) bound[k] = choose, choose = choose * (r.degree - k) / (k + 1);
-    r.c = c + zeros[0], r.error = bound + zeros[0];
-    r.degree -= zeros[0] + zeros[1];
-  }
+  if (method->basis == BASIS_BERNSTEIN) r.c = c + leaf->zeros[0], r.degree -= leaf->zeros[0] + leaf->zeros[1];
   return r;
 }
 
@@ -241,8 +223,8 @@ void method_find(const struct method *method, const struct method_planes *planes
   form_net(form.m, form.n, method->basis, planes->a, form.A);
   form_net(form.m, form.n, method->basis, planes->b, form.B);
   const double size[2] = {largest(planes->a, form.m, form.n), largest(planes->b, form.m, form.n)};
-  double c[bezout_MAX_DEGREE + 1], bound[bezout_MAX_DEGREE + 1];
-  const struct polynomial r = resultant(method, planes, &form, size, c, bound);
+  double c[bezout_MAX_DEGREE + 1];
+  const struct polynomial r = resultant(method, leaf, &form, c);
   struct root_set roots = {.count = 0};
   out->count = out->found = 0;
   if (r.degree > 0) solver_roots(&r, &method->roots, warm, &roots);

@@ -23,7 +23,6 @@ struct method_roots {
 struct method_planes {
   const struct leaf *leaf;
   double a[16], b[16]; /* the nets of its form, a[4 * i + j], i of the kept parameter */
-  double error;        /* bound on the error of a coefficient */
 };
 
 /* Forms r from the planes, finds its roots by the method's solver, from `warm` if that is not NULL, and substitutes

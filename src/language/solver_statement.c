@@ -38,19 +38,26 @@ void solver_begin(struct language *language, struct span place)
   }
   language->method = language_alloc(language, sizeof *language->method);
   method_default(solver, language->method);
+  language->method_name = place, language->method_items = 0;
+}
+
+const struct method_item *solver_item_find(const struct name *word)
+{
+  const struct method_item *item;
+  for (size_t k = 0; (item = method_item_at(k)) != NULL; k++)
+    if (words_compare(word->text, word->length, item->name) == 0) break;
+  return item;
 }
 
 static const struct method_item *item_named(struct language *language, struct span place)
 {
   const struct name name = sources_name(language, place);
+  const struct method_item *item = solver_item_find(&name);
   const char *names[MOST_NAMES];
   size_t count = 0;
-  for (const struct method_item *item; (item = method_item_at(count)) != NULL && count < MOST_NAMES; count++) {
-    if (words_compare(name.text, name.length, item->name) == 0) return item;
-    names[count] = item->name;
-  }
-  tell_unknown(language, "solver item", &name, names, count);
-  return NULL;
+  for (; method_item_at(count) && count < MOST_NAMES; count++) names[count] = method_item_at(count)->name;
+  if (!item) tell_unknown(language, "solver item", &name, names, count);
+  return item;
 }
 
 static void tell_wanted(struct language *language, struct span place, const struct method_item *item)
@@ -64,12 +71,26 @@ static void tell_wanted(struct language *language, struct span place, const stru
   language_error(language, place, "%s is %s%s%s", item->name, words, words[0] && range[0] ? " or " : "", range);
 }
 
+/* Sets an item. Those behind it in the table that it sets as well (`form paper` does) must not stand before it. */
+static void set_item(struct language *language, const struct method_item *item, struct span place, double value)
+{
+  const struct method before = *language->method;
+  item->set(language->method, value);
+  const size_t index = (size_t)(item - method_item_at(0));
+  for (size_t k = index + 1; k < method_item_count(); k++) {
+    const struct method_item *other = method_item_at(k);
+    if ((language->method_items >> k & 1) && other->get(&before) != other->get(language->method))
+      language_error(language, place, "%s sets %s as well; write it before %s", item->name, other->name, other->name);
+  }
+  language->method_items |= 1u << index;
+}
+
 static void set_number(struct language *language, const struct method_item *item, struct span place, double value)
 {
   const bool whole = item->kind != METHOD_ITEM_INTEGER || value == floor(value);
   if (item->kind == METHOD_ITEM_KEYWORD || !whole || !(value >= item->minimum && value <= item->maximum))
     tell_wanted(language, place, item);
-  else item->set(language->method, value);
+  else set_item(language, item, place, value);
 }
 
 void solver_quantity(struct language *language, struct span name, const struct value *value)
@@ -86,7 +107,7 @@ void solver_word(struct language *language, struct span name, struct span place)
   if (!item) return;
   for (size_t k = 0; item->keywords && item->keywords[k]; k++) {
     if (words_compare(value.text, value.length, item->keywords[k]) != 0) continue;
-    item->set(language->method, (double)k);
+    set_item(language, item, name, (double)k);
     return;
   }
   const struct symbol *symbol = symbol_find(language, value.text, value.length);

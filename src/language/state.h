@@ -93,6 +93,8 @@ struct language {
   struct matrix *matrix;                 /* numbers of the last one */
   struct transform_angles *angles;       /* of rotations */
   struct method *method;                 /* of the last solver statement */
+  struct span method_name;               /* the word in it that names the solver */
+  unsigned method_items;                 /* the items that it has set, by their bits */
   struct objects *objects;
   struct camera_items *camera;
   struct settings *settings;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "language/hints.h"
+#include "language/solver_statement.h"
 #include "language/tokens.h"
 
 enum { LONGEST_SHOWN = 40 };
@@ -136,6 +137,10 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
   const struct name name = sources_name(language, place);
   if (name.length == 0 && tokens->depth > 0) {
     language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
+    return;
+  }
+  if (same_place(tokens->previous, language->method_name) && solver_item_find(&name)) {
+    language_error(language, place, "the items of a solver stand in braces: { %.*s ... }", shown(&name), name.text);
     return;
   }
   if (tokens->last.token == PSCN_TOKEN_FOREIGN || tokens->last.token == PSCN_TOKEN_FOREIGN_SIGN) {

@@ -74,7 +74,6 @@ static void find_roots(struct target *target, const struct ray *ray, struct meth
   double w[16];
   local_ray_make(&model->patches[0], ray, &local);
   local_ray_nets(&local, leaf->form != NULL ? leaf->form->x : leaf->x, planes.a, planes.b, w);
-  planes.error = local.error;
   method_find(model->patches[0].method, &planes, NULL, out, NULL);
 }
 

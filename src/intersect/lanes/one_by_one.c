@@ -8,7 +8,7 @@
 static void lane_solve(const struct packet *p, const struct candidate *it, unsigned lane, struct method_roots *out)
 {
   const struct method *method = it->patch->method;
-  struct method_planes planes = {.leaf = it->leaf, .error = it->form_error[lane]};
+  struct method_planes planes = {.leaf = it->leaf};
   for (int i = 0; i <= it->leaf->kept_degree; i++)
     for (int j = 0; j <= it->leaf->eliminated_degree; j++)
       planes.a[4 * i + j] = it->fa[4 * i + j][lane], planes.b[4 * i + j] = it->fb[4 * i + j][lane];
