@@ -1,25 +1,23 @@
-/* Validates roots: one judge for all solvers, which uses nothing but the value and the polynomial.
+/* Validates roots: one judge for all solvers, which uses nothing but the values and the polynomial.
  *
- * For a polynomial q of degree n with Taylor coefficients q_j at z, each |q_j / q_0| is an elementary symmetric
- * function of the n reciprocal distances from z to the roots, at most C(n,j) / d^j with d the smallest distance. So for
- * every j there is a root within (C(n,j) |q_0| / |q_j|)^(1/j); j = 1 is the well-known n |p/p'|. With |q_0| rounded up
- * and |q_j| rounded down by their bounds (evaluation.h), this holds for the true polynomial. Roots at infinity only
- * make it safer.
+ * Let q_j be the Taylor coefficients at z of a polynomial q of degree n, rounded up or down by their bounds
+ * (evaluation.h), so that what follows holds for the true polynomial. Roots at infinity only make it safer.
  *
- * The bound is taken in the chart variable z and carried to u; both charts are Moebius maps. If z = s/w, with w the
- * chart's denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if
+ * One root. Each |q_j / q_0| is an elementary symmetric function of the reciprocal distances from z to the roots, at
+ * most C(n,j) / d^j with d the smallest distance. So for every j there is a root within (C(n,j) |q_0| / |q_j|)^(1/j).
+ *
+ * k roots. If |q_k| r^k is larger than the sum of all other |q_j| r^j, exactly k roots are within r of z (M. A. Pellet
+ * 1881, from Rouche's theorem). A value gets such a disc with k = 1 where it has one. Values without a disc, and values
+ * whose discs meet, are joined with their nearest neighbours, and the k values of a group seek a disc with k roots
+ * about their mean, moved to the mean of the roots by a step of Newton's method on the derivative of order k - 1. In
+ * the end any two discs are disjoint, or one lies in the other and its values are among those of the other. So roots
+ * and values can be paired, each root in the disc of its value, and a value's radius reaches all of its disc. A disc
+ * that meets the real axis is sought again with its centre there: its roots are real, or in conjugate pairs.
+ *
+ * Discs are taken in the chart variable and carried to u; both charts are Moebius maps. If z = s/w, with w the chart's
+ * denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if
  * r |w| >= 1.
- *
- * That a disc holds a root does not say that no root is left over. To say that, n different values x_i are needed. The
- * discs about them of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) cover all roots, and a group of k
- * discs that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros of a polynomial based upon
- * Gerschgorin's theorems", 1970). Here x is that of root_problem.h, or u itself, with p for q. In every group, values
- * are taken in the order of their own bounds. A value whose disc is apart from those taken before has a root of its
- * own. The roots left over are somewhere in the group, and the other values get radii that reach all of it. Then roots
- * and values can be paired, each root within the radius of its value. With fewer than n values, only those with discs
- * of their own are known.
  */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -28,273 +26,354 @@
 /* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
 #define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
 
-/* A slope known to less than half of itself makes the first-order bound poor; the higher orders are then tried too. */
-#define SLOPE_CERTAINTY 0.5
+/* ---- charts ---- */
 
-/* The chart point z = top/low of u, with low = w, and whether z is 1/x. */
+/* The chart point z = top/low of u, with low = w. */
 struct chart {
   struct complex_number z;
-  double width_square; /* |w|^2 */
-  bool reversed;
+  double width;    /* |w| */
+  double rounding; /* of z */
+  bool whole;      /* z = u */
 };
 
-static struct chart chart_of(enum basis basis, struct complex_number u)
+static bool is_reversed(enum basis basis, struct complex_number u)
 {
-  const struct complex_number v = basis == BASIS_POWER ? (struct complex_number){1.0, 0.0}
-                                                       : (struct complex_number){1.0 - u.re, -u.im};
-  struct chart out = {.reversed = complex_norm(u) > complex_norm(v)};
-  const struct complex_number top = out.reversed ? v : u, low = out.reversed ? u : v;
-  out.width_square = complex_norm(low);
-  out.z.re = (top.re * low.re + top.im * low.im) / out.width_square;
-  out.z.im = (top.im * low.re - top.re * low.im) / out.width_square;
+  return hypot(u.re, u.im) > (basis == BASIS_POWER ? 1.0 : hypot(1.0 - u.re, u.im));
+}
+
+static struct chart chart_of(enum basis basis, bool reversed, struct complex_number u)
+{
+  const bool power = basis == BASIS_POWER;
+  const struct complex_number v = power ? (struct complex_number){1.0, 0.0}
+                                        : (struct complex_number){1.0 - u.re, -u.im};
+  const struct complex_number top = reversed ? v : u, low = reversed ? u : v;
+  struct chart out = {.z = complex_divide(top, low), .width = hypot(low.re, low.im), .whole = power && !reversed};
+  if (out.whole) out.z = u;
+  else out.rounding = CHART_ROUNDING * hypot(out.z.re, out.z.im);
   return out;
 }
 
-/* The first-order bound of one value. */
-struct inclusion {
-  struct complex_number z;    /* chart point */
-  double bound;               /* of the distance from z to the nearest root; may be infinite or NaN */
-  double width, width_square; /* |w| and |w|^2 of the chart at u; width is 0 where z = u */
-  bool reversed;
-  bool doubtful; /* the slope is hardly told from zero; higher orders may bound better */
-};
-
-static struct inclusion include(const struct evaluation *p, struct complex_number u)
+/* Converts a bound on a distance from the chart point to one in u. */
+static double radius_in_u(const struct chart *chart, double bound)
 {
-  const bool power = p->basis == BASIS_POWER;
-  const struct chart chart = chart_of(p->basis, u);
-  struct inclusion out = {.z = chart.z, .width_square = chart.width_square, .reversed = chart.reversed};
-
-  const double *c = out.reversed ? p->reverse : p->forward;
-  const double *bound = out.reversed ? p->reverse_bound : p->forward_bound;
-  const double size = complex_small_modulus(out.z);
-  struct complex_number q = {c[p->degree], 0.0}, slope = {0.0, 0.0};
-  double error = bound[p->degree], slope_error = 0.0;
-  for (int k = p->degree - 1; k >= 0; k--) {
-    slope = complex_add(complex_multiply(slope, out.z), q);
-    q = complex_multiply(q, out.z);
-    q.re += c[k];
-    slope_error = slope_error * size + error;
-    error = error * size + bound[k];
-  }
-  /* at an end no arithmetic is done, so the value of an exact coefficient is exact */
-  const double value = complex_small_modulus(q), value_error = size == 0.0 ? bound[0] : error + UNDERFLOW_ERROR;
-  const double most = value + value_error, steep = complex_small_modulus(slope);
-  const double sure_slope = steep * (2.0 - BOUND_ROOM) - (slope_error + UNDERFLOW_ERROR);
-  out.bound = most == 0.0 ? 0.0 : sure_slope > 0.0 ? p->degree * most / sure_slope * BOUND_ROOM : INFINITY;
-  out.doubtful = sure_slope < SLOPE_CERTAINTY * steep && most > 0.0;
-  if (power && !out.reversed) return out; /* z = u needs no chart and has no chart rounding */
-  out.bound += CHART_ROUNDING * size;
-  out.width = sqrt(out.width_square);
-  return out;
+  if (chart->whole) return bound >= 0.0 ? bound : INFINITY;
+  const double reach = bound * chart->width * BOUND_ROOM, room = 1.0 - reach;
+  const double radius = reach * chart->width / room * BOUND_ROOM;
+  return room > 0.0 && radius >= 0.0 ? radius : INFINITY; /* NaN ends here too */
 }
 
-/* The least bound over all orders j, at one chart point. */
-static double all_orders_bound(const struct evaluation *p, struct complex_number z, bool reversed)
+/* ---- Taylor coefficients ---- */
+
+struct taylor {
+  double re[POLYNOMIAL_MAX_DEGREE + 1], im[POLYNOMIAL_MAX_DEGREE + 1];
+  double low[POLYNOMIAL_MAX_DEGREE + 1], high[POLYNOMIAL_MAX_DEGREE + 1]; /* bounds on |q_j| */
+};
+
+static void taylor_make(const struct evaluation *p, struct complex_number z, bool reversed, struct taylor *out)
 {
   const int n = p->degree;
   const size_t bytes = sizeof(double) * (size_t)(n + 1);
   const double modulus = hypot(z.re, z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
-  double re[POLYNOMIAL_MAX_DEGREE + 1], im[POLYNOMIAL_MAX_DEGREE + 1] = {0}, error[POLYNOMIAL_MAX_DEGREE + 1];
-  memcpy(re, reversed ? p->reverse : p->forward, bytes);
+  double error[POLYNOMIAL_MAX_DEGREE + 1];
+  memcpy(out->re, reversed ? p->reverse : p->forward, bytes);
+  memset(out->im, 0, bytes);
   memcpy(error, reversed ? p->reverse_bound : p->forward_bound, bytes);
-  double best = INFINITY, top = 0.0;
   for (int j = 0; j <= n; j++) {
     for (int k = n - 1; k >= j; k--) {
-      re[k] += re[k + 1] * z.re - im[k + 1] * z.im;
-      im[k] += re[k + 1] * z.im + im[k + 1] * z.re;
+      out->re[k] += out->re[k + 1] * z.re - out->im[k + 1] * z.im;
+      out->im[k] += out->re[k + 1] * z.im + out->im[k + 1] * z.re;
       error[k] += error[k + 1] * modulus;
     }
-    const double size = hypot(re[j], im[j]), doubt = error[j] + UNDERFLOW_ERROR;
-    if (j == 0) {
-      top = (size + doubt) * BOUND_ROOM;
-    } else if (size * (2.0 - BOUND_ROOM) > doubt) {
-      const double ratio = polynomial_binomial(n, j) * top / (size * (2.0 - BOUND_ROOM) - doubt);
-      best = fmin(best, pow(ratio, 1.0 / j) * BOUND_ROOM);
-    }
+    const double size = complex_small_modulus((struct complex_number){out->re[j], out->im[j]}),
+                 doubt = error[j] + (modulus > 0.0 ? UNDERFLOW_ERROR : 0.0);
+    out->high[j] = (size + doubt) * BOUND_ROOM;
+    out->low[j] = fmax(size * (2.0 - BOUND_ROOM) - doubt, 0.0);
   }
+}
+
+/* A root is within this of z. */
+static double one_root_within(int n, const struct taylor *q)
+{
+  double best = q->high[0] == 0.0 ? 0.0 : INFINITY;
+  for (int j = 1; j <= n && best > 0.0; j++)
+    if (q->low[j] > 0.0)
+      best = fmin(best, pow(polynomial_binomial(n, j) * q->high[0] / q->low[j], 1.0 / j) * BOUND_ROOM);
   return best;
 }
 
-/* Converts a bound in z to one in u. */
-static double radius_in_u(double bound, double width, double width_square)
+/* A radius is sought from just above its lower bound, in steps by this factor. */
+#define FIRST_ROOM (1.0 + 0x1p-10)
+#define GROWTH 1.125
+
+/* Exactly k roots are within this of z; INFINITY where no such radius is found. */
+static double k_roots_within(int n, int k, const struct taylor *q)
 {
-  const double room = 1.0 - bound * width * BOUND_ROOM;
-  const double radius = bound * width_square / room * BOUND_ROOM;
-  return room > 0.0 && radius >= 0.0 ? radius : INFINITY; /* NaN ends here too */
+  double r = 0.0;
+  for (int j = 0; j < k; j++) r = fmax(r, pow(q->high[j] / q->low[k], 1.0 / (k - j)));
+  if (!(q->low[k] > 0.0)) return INFINITY;
+  if (r == 0.0) return 0.0;
+  for (r *= FIRST_ROOM; r < INFINITY; r *= GROWTH) {
+    double below = 0.0, above = 0.0;
+    for (int j = 0; j < k; j++) below = (below + q->high[j]) / r;
+    for (int j = n; j > k; j--) above = (above + q->high[j]) * r;
+    if ((below + above) * BOUND_ROOM < q->low[k]) return r;
+    if (!(above < q->low[k])) break;
+  }
+  return INFINITY;
 }
 
-/* One value and what is known of it. Lengths are in the plane of the discs, except where a comment says otherwise. */
-struct judged {
-  struct complex_number x; /* the value, or a point beside it if two are equal */
-  double shift;            /* how far beside */
-  double own;              /* some root is within it */
-  double shared;           /* Smith's disc; INFINITY where there is none */
-  double own_in_u;
-  double width, width_square; /* |w| and |w|^2 of the plane as a chart of u; 0 and 1 where it is that of u */
-  int group;                  /* the least index of its group */
-  bool taken;                 /* the root within `own` belongs to no other value */
+/* ---- discs ---- */
+
+struct disc {
+  struct complex_number z; /* a chart point */
+  bool reversed;           /* whether z is 1/x */
+  double radius;
+  uint64_t members; /* as many values as the disc has roots, by their bits */
 };
 
-/* Smith's theorem needs different centres. Of two equal ones, the later is moved aside by about its own uncertainty. */
-static void set_apart(struct judged *later, const struct judged *earlier)
+enum { NO_DISC = -1 };
+
+_Static_assert(POLYNOMIAL_MAX_DEGREE <= 64, "a bit for each value");
+
+struct judge {
+  const struct evaluation *p;
+  int count;
+  struct root *root;
+  int group[POLYNOMIAL_MAX_DEGREE]; /* the least index of a value joined with this one */
+  int disc_of[POLYNOMIAL_MAX_DEGREE];
+  int disc_count;
+  struct disc disc[2 * POLYNOMIAL_MAX_DEGREE];
+};
+
+static struct complex_number value_of(const struct judge *judge, int i)
 {
-  if (later->x.re != earlier->x.re || later->x.im != earlier->x.im || !(later->own < INFINITY)) return;
-  const double shift = fmax(2.0 * later->own, 4 * DBL_EPSILON * fabs(later->x.re) + DBL_MIN);
-  const double from = later->x.re;
-  later->x.re += shift;
-  const double moved = (later->x.re - from) * BOUND_ROOM; /* rounding may have moved it farther */
-  later->shift += moved, later->own += moved;
+  return (struct complex_number){judge->root[i].re, judge->root[i].im};
 }
 
-static void find_own(const struct evaluation *p, bool in_u, int count, const struct root root[], struct judged all[])
+/* The image of a disc in the other chart; false if it holds infinity. With s the square of radius over |z|, its centre is
+ * 1 / (z (1 - s)). */
+static bool disc_turn(struct disc *disc)
 {
-  for (int i = 0; i < count; i++) {
-    const struct complex_number u = {root[i].re, root[i].im};
-    const struct inclusion at = include(p, u);
-    double bound = at.bound;
-    if (at.doubtful) {
-      const double rounding = at.width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(at.z.re, at.z.im);
-      bound = fmin(bound, all_orders_bound(p, at.z, at.reversed) + rounding);
-    }
-    const double own_in_u = radius_in_u(bound, at.width, at.width_square);
-    all[i] = (struct judged){
-      .x = u, .own = own_in_u, .own_in_u = own_in_u, .shared = INFINITY, .width_square = 1.0, .group = i};
-    if (!in_u) {
-      root_problem_x_from_u(p->basis, &all[i].x.re, &all[i].x.im);
-      all[i].width = hypot(1.0 - u.re, u.im);
-      all[i].width_square = all[i].width * all[i].width;
-      const double x_width = at.reversed ? complex_modulus(all[i].x) : 0.0;
-      all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0) +
-                   CHART_ROUNDING * hypot(all[i].x.re, all[i].x.im); /* the rounding of x from u */
-    }
-    for (int j = 0; j < i; j++) set_apart(&all[i], &all[j]);
+  const double size = hypot(disc->z.re, disc->z.im), ratio = disc->radius / size;
+  const double room = (1.0 - ratio * ratio) * (2.0 - BOUND_ROOM);
+  if (!(ratio < 1.0 && room > 0.0)) return false;
+  disc->z = complex_divide((struct complex_number){1.0 / room, 0.0}, disc->z);
+  disc->radius = (ratio / size / room + CHART_ROUNDING / (size * room)) * BOUND_ROOM;
+  disc->reversed = !disc->reversed;
+  return true;
+}
+
+static double distance(struct complex_number a, struct complex_number b)
+{
+  return complex_small_modulus(complex_subtract(a, b));
+}
+
+static bool discs_disjoint(struct disc a, struct disc b)
+{
+  if (a.reversed != b.reversed && !disc_turn(&a) && !disc_turn(&b)) return false;
+  return distance(a.z, b.z) > (a.radius + b.radius) * BOUND_ROOM;
+}
+
+static bool disc_inside(struct disc a, struct disc b)
+{
+  if ((a.members & b.members) != a.members || (a.reversed != b.reversed && !disc_turn(&a))) return false;
+  return (distance(a.z, b.z) + a.radius) * BOUND_ROOM <= b.radius;
+}
+
+static bool discs_agree(const struct disc *a, const struct disc *b)
+{
+  return discs_disjoint(*a, *b) || disc_inside(*a, *b) || disc_inside(*b, *a);
+}
+
+/* Seeks a disc for the values of the set. Returns its number, or NO_DISC. */
+static int disc_make(struct judge *judge, uint64_t members)
+{
+  const struct evaluation *p = judge->p;
+  struct taylor q;
+  struct disc disc = {.members = members};
+  int k = 0, reversed = 0;
+  for (int i = 0; i < judge->count; i++)
+    if (members >> i & 1) k++, reversed += is_reversed(p->basis, value_of(judge, i));
+  disc.reversed = 2 * reversed > k;
+  for (int i = 0; i < judge->count; i++)
+    if (members >> i & 1)
+      disc.z = complex_add(disc.z, complex_scale(1.0 / k, chart_of(p->basis, disc.reversed, value_of(judge, i)).z));
+  if (k > 1) {
+    taylor_make(p, disc.z, disc.reversed, &q);
+    const struct complex_number value = {q.re[k - 1], q.im[k - 1]}, slope = {k * q.re[k], k * q.im[k]};
+    const struct complex_number step = complex_divide(value, slope);
+    if (isfinite(step.re) && isfinite(step.im)) disc.z = complex_subtract(disc.z, step);
   }
-}
-
-/* Room for the rounding of a sum of 200 logarithms to base 2, each below 2^17. */
-#define LOG_ROOM 0x1p-20
-
-/* log2 of a bound on |q(x)|, or on |p(u)|. A chart point comes from u by a difference and a quotient: 7 roundings. */
-static double log_value(const struct evaluation *p, bool in_u, struct complex_number x)
-{
-  if (in_u && p->basis == BASIS_BERNSTEIN) {
-    const struct chart chart = chart_of(p->basis, x);
-    const struct evaluation_complex q = evaluation_in_chart(p, chart.z, chart.reversed);
-    return log2(hypot(q.value.re, q.value.im) + q.error) + 0.5 * p->degree * log2(chart.width_square);
+  taylor_make(p, disc.z, disc.reversed, &q);
+  disc.radius = k_roots_within(p->degree, k, &q);
+  if (disc.radius < INFINITY && disc.z.im != 0.0 && fabs(disc.z.im) <= disc.radius) {
+    disc.z.im = 0.0;
+    taylor_make(p, disc.z, disc.reversed, &q);
+    disc.radius = k_roots_within(p->degree, k, &q);
   }
-  const struct evaluation_complex q = evaluation_at_complex(p, x, 1.0);
-  return log2(hypot(q.value.re, q.value.im) + q.error) + (q.reversed ? p->degree * log2(hypot(x.re, x.im)) : 0.0);
+  if (!(disc.radius < INFINITY)) return NO_DISC;
+  judge->disc[judge->disc_count] = disc;
+  return judge->disc_count++;
 }
 
-/* The leading coefficient, and a bound on its error. In powers of x it is the last of q; in powers of u, with p in
- * Bernstein form, it is the value of q at x = -1. */
-static struct evaluation_real leading_of(const struct evaluation *p, bool in_u)
+/* The square of the distance of two values on the sphere of the numbers x, or u. */
+static double sphere_distance(const struct judge *judge, int i, int j)
 {
-  if (in_u && p->basis == BASIS_BERNSTEIN) return evaluation_at_real(p, -1.0, false);
-  return (struct evaluation_real){.value = p->forward[p->degree], .error = p->forward_bound[p->degree]};
+  struct complex_number x[2] = {value_of(judge, i), value_of(judge, j)};
+  for (int k = 0; k < 2; k++) root_problem_x_from_u(judge->p->basis, &x[k].re, &x[k].im);
+  const double apart = distance(x[0], x[1]) /
+                       (hypot(1.0, hypot(x[0].re, x[0].im)) * hypot(1.0, hypot(x[1].re, x[1].im)));
+  return isnan(apart) ? INFINITY : apart;
 }
 
-/* Whether to draw the discs in the plane of u. The plane of x has its point at infinity at u = 1. Near a root there, no
- * disc is known, and the leading coefficient is hardly told from zero. */
-static bool better_in_u(const struct evaluation *p)
+/* Joins the groups of values i and j and seeks a disc for the values that have none, or one that reaches out of it. */
+static void join(struct judge *judge, int i, int j)
 {
-  const struct evaluation_real u = leading_of(p, true), x = leading_of(p, false);
-  return p->basis == BASIS_POWER || fabs(u.value) * x.error > fabs(x.value) * u.error;
-}
-
-/* Half the distance, which does not overflow. */
-static double half_distance(const struct judged *a, const struct judged *b)
-{
-  return hypot(0.5 * a->x.re - 0.5 * b->x.re, 0.5 * a->x.im - 0.5 * b->x.im);
-}
-
-static bool discs_meet(const struct judged *a, double a_radius, const struct judged *b, double b_radius)
-{
-  return !(2.0 * half_distance(a, b) > (a_radius + b_radius) * BOUND_ROOM);
-}
-
-/* Finds Smith's discs, and the groups they form. */
-static void find_groups(const struct evaluation *p, bool in_u, int count, struct judged all[])
-{
-  const struct evaluation_real last = leading_of(p, in_u);
-  const double leading = fabs(last.value) * (2.0 - BOUND_ROOM) - last.error;
-  bool able = count == p->degree && leading > 0.0;
-  for (int i = 0; i < count; i++) able = able && isfinite(all[i].x.re) && isfinite(all[i].x.im);
-  for (int i = 0; able && i < count; i++) {
-    double size = log2(count) + log_value(p, in_u, all[i].x) - log2(leading) + LOG_ROOM;
-    for (int j = 0; j < count; j++) size -= j == i ? 0.0 : log2(half_distance(&all[i], &all[j])) + 1.0;
-    all[i].shared = isnan(size) ? INFINITY : exp2(size) + DBL_MIN;
+  const int from = judge->group[i], to = judge->group[j];
+  uint64_t members = 0;
+  for (int k = 0; k < judge->count; k++) {
+    if (judge->group[k] == from) judge->group[k] = to;
+    if (judge->group[k] == to) members |= (uint64_t)1 << k;
   }
-  for (int i = 0; i < count; i++) {
+  const int made = disc_make(judge, members);
+  for (int k = 0; made != NO_DISC && k < judge->count; k++)
+    if ((members >> k & 1) &&
+        (judge->disc_of[k] == NO_DISC || !disc_inside(judge->disc[judge->disc_of[k]], judge->disc[made])))
+      judge->disc_of[k] = made;
+}
+
+/* Takes away two discs that meet, and joins their values. Returns whether there were any. */
+static bool settle_conflict(struct judge *judge)
+{
+  for (int i = 0; i < judge->count; i++) {
     for (int j = 0; j < i; j++) {
-      const int from = all[i].group, to = all[j].group;
-      if (from == to || !discs_meet(&all[i], all[i].shared, &all[j], all[j].shared)) continue;
-      for (int k = 0; k < count; k++)
-        if (all[k].group == from || all[k].group == to) all[k].group = from < to ? from : to;
+      const int a = judge->disc_of[i], b = judge->disc_of[j];
+      if (a == b || a == NO_DISC || b == NO_DISC || discs_agree(&judge->disc[a], &judge->disc[b])) continue;
+      for (int k = 0; k < judge->count; k++)
+        if (judge->disc_of[k] == a || judge->disc_of[k] == b) judge->disc_of[k] = NO_DISC;
+      if (judge->group[i] != judge->group[j]) join(judge, i, j);
+      return true;
     }
   }
+  return false;
 }
 
-/* Gives roots to the values whose discs are apart from those taken before, in order of size, smallest first. */
-static void take_own(int count, struct judged all[])
+/* Joins a value without a disc with its nearest neighbour beyond its group. Returns whether there were such. */
+static bool settle_lone(struct judge *judge)
 {
-  bool seen[POLYNOMIAL_MAX_DEGREE] = {false};
-  for (int round = 0; round < count; round++) {
-    int best = -1;
-    for (int i = 0; i < count; i++)
-      if (!seen[i] && (best < 0 || all[i].own < all[best].own)) best = i;
-    struct judged *here = &all[best];
-    seen[best] = true;
-    here->taken = here->own < INFINITY && here->own <= here->shared;
-    for (int j = 0; j < count && here->taken; j++) {
-      const bool rival = j != best && all[j].taken && all[j].group == here->group;
-      here->taken = !rival || !discs_meet(here, here->own, &all[j], all[j].own);
+  int lone = 0, nearest = -1;
+  double least = INFINITY;
+  while (lone < judge->count && judge->disc_of[lone] != NO_DISC) lone++;
+  if (lone == judge->count) return false;
+  for (int j = 0; j < judge->count; j++) {
+    const double apart = judge->group[j] == judge->group[lone] ? INFINITY : sphere_distance(judge, lone, j);
+    if (judge->group[j] != judge->group[lone] && (nearest < 0 || apart < least)) nearest = j, least = apart;
+  }
+  join(judge, lone, nearest < 0 ? lone : nearest);
+  return nearest >= 0;
+}
+
+/* ---- values and their radii ---- */
+
+static bool uses_disc(const struct judge *judge, int i, int d) { return i < judge->count && judge->disc_of[i] == d; }
+
+/* A disc about a real point: its values become conjugate pairs where they nearly are, otherwise real. */
+static void pair_within(struct judge *judge, int d)
+{
+  bool paired[POLYNOMIAL_MAX_DEGREE] = {false};
+  for (int i = 0; i < judge->count; i++) {
+    struct root *a = &judge->root[i], *best = NULL;
+    int at = -1;
+    if (!uses_disc(judge, i, d) || !(a->im > 0.0)) continue;
+    for (int j = 0; j < judge->count; j++) {
+      struct root *b = &judge->root[j];
+      if (!uses_disc(judge, j, d) || paired[j] || !(b->im < 0.0)) continue;
+      if (best == NULL || hypot(a->re - b->re, a->im + b->im) < hypot(a->re - best->re, a->im + best->im))
+        best = b, at = j;
     }
+    if (best == NULL || hypot(a->re - best->re, a->im + best->im) > fmin(a->im, -best->im)) continue;
+    paired[i] = paired[at] = true;
+    a->re = best->re = 0.5 * a->re + 0.5 * best->re;
+    a->im = 0.5 * a->im - 0.5 * best->im;
+    best->im = -a->im;
+  }
+  for (int i = 0; i < judge->count; i++)
+    if (uses_disc(judge, i, d) && !paired[i]) judge->root[i].im = 0.0;
+}
+
+/* A disc above the real axis and the one whose roots are conjugate to its own: the values of that with the larger
+ * radius become the conjugates of the other's. */
+static void pair_across(struct judge *judge, int d)
+{
+  const struct disc *above = &judge->disc[d];
+  struct disc mirrored = *above;
+  mirrored.z.im = -mirrored.z.im;
+  int below = NO_DISC;
+  for (int i = 0; i < judge->count; i++) {
+    const int other = judge->disc_of[i];
+    if (other == NO_DISC || other == below || discs_disjoint(mirrored, judge->disc[other])) continue;
+    if (below != NO_DISC || other == d) return;
+    below = other;
+  }
+  if (below == NO_DISC) return;
+  const int from = above->radius <= judge->disc[below].radius ? d : below, to = from == d ? below : d;
+  int i = 0, j = 0, pairs = 0;
+  for (int k = 0; k < judge->count; k++) pairs += uses_disc(judge, k, d) - uses_disc(judge, k, below);
+  if (pairs != 0 || judge->disc[below].z.im * above->z.im >= 0.0 || above->reversed != judge->disc[below].reversed)
+    return;
+  const uint64_t members = judge->disc[to].members;
+  judge->disc[to] = judge->disc[from];
+  judge->disc[to].z.im = -judge->disc[to].z.im, judge->disc[to].members = members;
+  for (;; i++, j++) {
+    while (i < judge->count && !uses_disc(judge, i, from)) i++;
+    while (j < judge->count && !uses_disc(judge, j, to)) j++;
+    if (i == judge->count || j == judge->count) return;
+    judge->root[j].re = judge->root[i].re, judge->root[j].im = -judge->root[i].im;
   }
 }
 
-/* The radius of a value, in u. */
-static double final_radius(int i, int count, const struct judged all[])
+static void set_radius(struct judge *judge, int i)
 {
-  const struct judged *here = &all[i];
-  if (here->taken) return here->own_in_u;
-  double reach = 0.0;
-  for (int j = 0; j < count; j++) {
-    const double far = 2.0 * half_distance(here, &all[j]) + all[j].shared;
-    if (all[j].group == here->group && !(far <= reach)) reach = isnan(far) ? INFINITY : far;
+  struct root *root = &judge->root[i];
+  double radius = INFINITY;
+  if (judge->disc_of[i] != NO_DISC) {
+    const struct disc *disc = &judge->disc[judge->disc_of[i]];
+    const struct chart chart = chart_of(judge->p->basis, disc->reversed, value_of(judge, i));
+    radius = radius_in_u(&chart, (distance(chart.z, disc->z) + disc->radius) * BOUND_ROOM + chart.rounding);
+    const bool alone = (disc->members & (disc->members - 1)) == 0;
+    if (!alone && root->status == ROOT_CONVERGED) root->status = ROOT_CLUSTER;
   }
-  const double rounding = here->width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(here->x.re, here->x.im);
-  return radius_in_u((reach + here->shift) * BOUND_ROOM + rounding, here->width, here->width_square);
+  root->radius = fmax(root->radius, radius);
 }
 
-/* The bound n |p/p'| is n times Newton's guess of the error of a simple root. A value whose imaginary part is within
- * this many such guesses is moved to the real axis. */
-#define SNAP_GUESSES 2.0
-
-static void set_radii(const struct evaluation *p, bool all_sought, int count, struct root root[])
+static void judge_all(const struct evaluation *p, int count, struct root root[])
 {
-  struct judged all[POLYNOMIAL_MAX_DEGREE];
-  const bool in_u = better_in_u(p);
-  find_own(p, in_u, count, root, all);
-  if (all_sought) {
-    find_groups(p, in_u, count, all);
-    take_own(count, all);
-  }
+  struct judge judge = {.p = p, .count = count, .root = root};
+  for (int i = 0; i < count; i++) judge.group[i] = i, judge.disc_of[i] = disc_make(&judge, (uint64_t)1 << i);
+  while (settle_conflict(&judge) || settle_lone(&judge)) continue;
+  for (int d = 0; d < judge.disc_count; d++)
+    if (judge.disc[d].z.im == 0.0) pair_within(&judge, d);
+    else if (judge.disc[d].z.im > 0.0) pair_across(&judge, d);
+  for (int i = 0; i < count; i++) set_radius(&judge, i);
+}
+
+/* Values for some of the roots only: each by itself. */
+static void judge_each(const struct evaluation *p, int count, struct root root[])
+{
   for (int i = 0; i < count; i++) {
-    const double own = all[i].own_in_u;
-    root[i].radius = fmax(root[i].radius, all_sought ? final_radius(i, count, all) : own);
-    if (own < INFINITY && p->degree * fabs(root[i].im) <= SNAP_GUESSES * own) {
-      root[i].radius = (root[i].radius + fabs(root[i].im)) * BOUND_ROOM;
-      root[i].im = 0.0;
-    }
+    struct taylor q;
+    const struct complex_number u = {root[i].re, root[i].im};
+    const bool reversed = is_reversed(p->basis, u);
+    const struct chart chart = chart_of(p->basis, reversed, u);
+    taylor_make(p, chart.z, reversed, &q);
+    root[i].radius = fmax(root[i].radius, radius_in_u(&chart, one_root_within(p->degree, &q) + chart.rounding));
   }
 }
 
-/* Marks discs that meet as clusters. */
-static void mark_clusters(struct root_set *roots)
+/* Marks discs that meet as clusters; of those from number `exact` on only where `each` was judged by itself. */
+static void mark_clusters(struct root_set *roots, int exact, bool each)
 {
-  for (int i = 0; i < roots->count; i++) {
+  for (int i = 0; i < (each ? roots->count : exact); i++) {
     struct root *a = &roots->root[i];
     for (int j = i + 1; j < roots->count; j++) {
       struct root *b = &roots->root[j];
@@ -318,7 +397,7 @@ static bool may_reach_infinity(const struct evaluation *p)
 
 void validation_judge(const struct evaluation *p, bool all_sought, int exact, struct root_set *roots)
 {
-  set_radii(p, all_sought, roots->count - exact, roots->root + exact);
+  (all_sought ? judge_all : judge_each)(p, roots->count - exact, roots->root + exact);
   bool infinite = false, asked = false;
   int kept = exact;
   for (int i = exact; i < roots->count; i++) {
@@ -333,5 +412,5 @@ void validation_judge(const struct evaluation *p, bool all_sought, int exact, st
     roots->root[kept++] = *root;
   }
   roots->count = kept;
-  mark_clusters(roots);
+  mark_clusters(roots, exact, !all_sought);
 }

@@ -295,6 +295,44 @@ static void radii_are_small(void **state)
   assert_true(largest_radius(4, c, 0.5, ROOT_CLUSTER) < 1e-3);
 }
 
+/* A polynomial that is a power has only one root. Doubles know (x - 1)^8 to 0.02 and (x - 1)^20 to 0.4; the discs of
+ * their clusters are not much larger. The complex roots of a real polynomial are printed as conjugate pairs, in a
+ * cluster or not. */
+static void clusters_have_discs_and_pairs(void **state)
+{
+  (void)state;
+  static const struct {
+    int power;
+    double largest;
+  } cases[] = {{3, 1e-4}, {8, 0.1}, {20, 1.0}};
+  for (size_t s = 0; s < solver_count(); s++) {
+    if (solver_at(s)->real_only) continue;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+      double c[21] = {1.0};
+      const int power = cases[k].power;
+      for (int j = 0; j < power; j++)
+        for (int i = j + 1; i >= 0; i--) c[i] = (i > 0 ? c[i - 1] : 0.0) - (i <= j ? c[i] : 0.0);
+      const struct root_set roots = solve(solver_at(s)->name, power, BASIS_POWER, c, NULL);
+      assert_int_equal(roots.count, power);
+      for (int i = 0; i < power; i++) {
+        const struct root *root = &roots.root[i];
+        assert_true(root->radius <= cases[k].largest && root->radius >= hypot(root->re - 1.0, root->im));
+        bool paired = root->im == 0.0;
+        for (int j = 0; j < power; j++) paired |= roots.root[j].re == root->re && roots.root[j].im == -root->im;
+        assert_true(paired);
+      }
+    }
+    const double plain[] = {5.0, -2.0, 3.0, 0.0, -1.0, 0.5, 7.0, 1.0};
+    const struct root_set roots = solve(solver_at(s)->name, 7, BASIS_POWER, plain, NULL);
+    for (int i = 0; i < roots.count; i++) {
+      bool paired = false;
+      for (int j = 0; j < roots.count; j++)
+        paired |= roots.root[j].re == roots.root[i].re && roots.root[j].im == -roots.root[i].im;
+      assert_true(paired);
+    }
+  }
+}
+
 /* Measured in units of 2^size, the unknown has the same roots, in those units, with the same statuses, as long as the
  * coefficients are doubles. */
 static void sizes(void **state)
@@ -495,6 +533,7 @@ int main(void)
     cmocka_unit_test(limits),
     cmocka_unit_test(division),
     cmocka_unit_test(radii_are_small),
+    cmocka_unit_test(clusters_have_discs_and_pairs),
     cmocka_unit_test(sizes),
     cmocka_unit_test(roots_at_one),
     cmocka_unit_test(extremes_beside_the_interval),
