@@ -9,7 +9,8 @@
 export CMAKE_GENERATOR=Ninja
 
 # What building and running pscn needs.
-BUILD_PACKAGES=(cmake ninja-build gcc g++ libc6-dev pkg-config flex bison libopenimageio-dev libjansson-dev)
+BUILD_PACKAGES=(cmake ninja-build gcc g++ libc6-dev pkg-config flex bison libopenimageio-dev libpng-dev
+  libjansson-dev)
 
 install_packages() {
   if ! command -v dpkg-query >/dev/null; then

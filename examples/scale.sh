@@ -27,15 +27,14 @@ teapots=("$@")
 
 install_packages "${BUILD_PACKAGES[@]}" povray gnuplot-nox time
 cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
-cmake --build build --target pscn pscn_openimageio >/dev/null
+cmake --build build --target pscn >/dev/null
 pscn=$PWD/build/src/command/pscn
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/home"
 
 # ours FILE SIZE THREADS: "parse build render rays hits MB wall" of pscn, in CPU seconds except for the last, the clock
-# time of rendering. It has POV-Ray's memory limit, under which OpenImageIO is loaded before everything else. Loaded
-# during rendering, it would take a share of the processors, and threads would seem to gain less.
+# time of rendering. It has POV-Ray's memory limit.
 ours() {
   (ulimit -v "$MEMORY_LIMIT" && exec /usr/bin/time -f %M -o "$folder/memory" "$pscn" render "$1" --size "$2" \
     --threads "$3" --quiet --stats "$folder/stats.json" -o "$folder/pscn.png")

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/module.h"
 #include "base/sort.h"
 #include "chart/embree_mesh.h"
 #include "chart/plain_newton.h"
 #include "chart/work.h"
-#include "check/povray.h"
+#include "page/povray.h"
 #include "geometry/vector.h"
 
 /* ---- plain Newton ---- */
@@ -119,7 +120,7 @@ static enum status ask_embree(struct chart *chart)
     return STATUS_OK;
   }
   /* It stays loaded, because Embree keeps threads of its own. */
-  void *handle = dlopen(EMBREE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void *handle = module_open(EMBREE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   const struct embree_peer *peer = handle == NULL ? NULL : dlsym(handle, EMBREE_MODULE_SYMBOL);
   if (peer == NULL) {
     chart_note(chart, "Embree is left out: there is no %s, which is built where libembree-dev is found.",

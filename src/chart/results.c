@@ -7,9 +7,9 @@
 #include "base/json_text.h"
 #include "chart/templates.h"
 #include "chart/work.h"
-#include "check/fill.h"
-#include "check/page.h"
-#include "check/plot.h"
+#include "page/fill.h"
+#include "page/page.h"
+#include "page/plot.h"
 
 /* ---- the figure ---- */
 

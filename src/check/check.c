@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "check/measure.h"
-#include "check/process.h"
+#include "page/process.h"
 
 /* Measures a row, and makes its files before the next row takes its picture's place. */
 static enum status measure_row(struct check *check, size_t steps)

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "check/check.h"
-#include "check/povray.h"
+#include "page/povray.h"
 
 enum {
   CHECK_CODES = 3, /* the limits 1, 4 and 16 of 255 */
@@ -105,6 +105,8 @@ bool check_within_limits(const struct check *check, char *out, size_t size);
 
 /* Finds the edges in a row of our pixels. `window` has the row and those beside it, row y at window[y % 3][width]. */
 void check_find_edges(struct check *check, const struct check_sight *window, size_t y);
+
+/* ---- map.c ---- */
 
 /* A map of our picture, darkened, with its edges, and with the pixels over the limit as spots. The colours are R G B, 0
  * to 1, of the edges, and of the spots by kind of edge. STATUS_LIMIT if memory is short. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/json_text.h"
-#include "check/page.h"
+#include "page/page.h"
 #include "library/pscn.h"
 
 static void row_name(const struct check_row *row, char *out, size_t size)

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 #include "base/json_text.h"
-#include "check/fill.h"
+#include "page/fill.h"
 #include "check/measure.h"
-#include "check/page.h"
-#include "check/plot.h"
+#include "page/page.h"
+#include "page/plot.h"
 #include "check/templates.h"
 
 /* The factor by which differences are magnified: 16 codes become full light. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "chart/measure.h"
-#include "check/povray.h"
+#include "page/povray.h"
 #include "command/command.h"
 #include "command/output.h"
 #include "command/scene_file.h"

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/number.h"
-#include "check/povray.h"
+#include "page/povray.h"
 #include "command/command.h"
 #include "command/output.h"
 #include "command/scene_file.h"

@@ -330,7 +330,7 @@ enum status rendering_make(const struct command *command, const struct rendering
 {
   struct image_loading loading;
   const char *unused;
-  image_loading_begin(&loading);
+  image_loading_begin(&loading, request->format != IMAGE_PNG);
   const enum status status = render(command, request, &loading);
   (void)!image_loading_end(&loading, &unused);
   return status;

@@ -69,9 +69,9 @@ struct session {
   size_t polynomials, roots, iterations, accurate, missing;
   size_t doubtful; /* lines printed in plain format with unknown roots */
   size_t statuses[ROOT_CLUSTER + 1];
-  double solve; /* seconds */
-  bool failed;  /* memory was too short for an answer */
-  bool judged;  /* eq 11 is evaluated, which takes several times as long as finding the roots */
+  struct seconds solve;
+  bool failed; /* memory was too short for an answer */
+  bool judged; /* eq 11 is evaluated, which takes several times as long as finding the roots */
 };
 
 /* Reads coefficients from the highest power to the constant. The fault's text is NULL if all is well. */
@@ -248,7 +248,8 @@ static void to_bernstein(int degree, const double c[], double out_c[], double ou
  * the change of basis. Leading zeros are removed before it, because they could not be recognized after it. */
 static void solve(struct session *session, struct answer *answer)
 {
-  const double start = clock_seconds(CLOCK_MONOTONIC), *c = answer->power.c;
+  const struct seconds start = seconds_now();
+  const double *c = answer->power.c;
   struct polynomial p = answer->power;
   while (p.degree > 1 && c[p.degree] == 0) p.degree--;
   double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
@@ -257,7 +258,9 @@ static void solve(struct session *session, struct answer *answer)
     p = (struct polynomial){p.degree, BASIS_BERNSTEIN, bernstein, error};
   }
   solver_solve(&p, &session->method.roots, &session->warm, &answer->roots);
-  session->solve += clock_seconds(CLOCK_MONOTONIC) - start;
+  const struct seconds taken = seconds_since(start);
+  session->solve.wall += taken.wall;
+  session->solve.cpu += taken.cpu;
 }
 
 static void count_roots(struct session *session, const struct answer *answer)
@@ -312,13 +315,13 @@ static json_t *statistics(const struct session *session)
 {
   char solver[METHOD_TEXT_SIZE];
   method_text(&session->method, solver, sizeof solver);
-  return json_pack("{s:o, s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}}", "polynomials",
-                   json_count(session->polynomials), "roots", json_count(session->roots), "missing",
-                   json_count(session->missing), "iterations", json_count(session->iterations), "accurate",
-                   share(session->accurate, session->roots), "status", "converged",
-                   json_count(session->statuses[ROOT_CONVERGED]), "cluster",
-                   json_count(session->statuses[ROOT_CLUSTER]), "limit", json_count(session->statuses[ROOT_LIMIT]),
-                   "solver", solver, "tolerance", session->method.roots.tolerance, "time", "solve", session->solve);
+  return json_pack(
+    "{s:o, s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}, s:{s:f}}", "polynomials",
+    json_count(session->polynomials), "roots", json_count(session->roots), "missing", json_count(session->missing),
+    "iterations", json_count(session->iterations), "accurate", share(session->accurate, session->roots), "status",
+    "converged", json_count(session->statuses[ROOT_CONVERGED]), "cluster", json_count(session->statuses[ROOT_CLUSTER]),
+    "limit", json_count(session->statuses[ROOT_LIMIT]), "solver", solver, "tolerance", session->method.roots.tolerance,
+    "time", "solve", session->solve.wall, "cpu", "solve", session->solve.cpu);
 }
 
 static void print_summary(const struct session *session)
@@ -330,7 +333,7 @@ static void print_summary(const struct session *session)
           session->polynomials, session->statuses[ROOT_CONVERGED], session->statuses[ROOT_CLUSTER],
           session->statuses[ROOT_LIMIT]);
   fprintf(stderr, "accurate %.4f of them (eq 11); %.2f iterations a root; %.6f s\n",
-          share(session->accurate, session->roots), share(session->iterations, session->roots), session->solve);
+          share(session->accurate, session->roots), share(session->iterations, session->roots), session->solve.wall);
 }
 
 static enum status choose_solver(const struct command *command, const struct request *request, struct method *out)

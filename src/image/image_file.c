@@ -1,4 +1,5 @@
-/* Reads and writes picture files: the limits of the formats, and the loading of the module that does the work. */
+/* Reads and writes picture files: the limits of the formats, and the loading of the module that does the work for all but PNG
+ * that is written. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
 #include "image/image_file.h"
 
@@ -12,7 +13,9 @@
 #include <unistd.h>
 
 #include "base/input.h"
+#include "base/module.h"
 #include "image/image_module.h"
+#include "image/png_file.h"
 
 struct format_traits {
   const char *suffix;
@@ -112,14 +115,14 @@ static enum status load_module(const struct image_module **out, char *message)
 {
   const int flags = RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE;
   message[0] = '\0';
-  void *handle = dlopen(IMAGE_MODULE_FILE, flags | RTLD_NOLOAD);
+  void *handle = module_open(IMAGE_MODULE_FILE, flags | RTLD_NOLOAD);
   if (handle == NULL && !room_for_module()) {
     snprintf(message, IMAGE_MESSAGE_SIZE, "there is too little memory, or too few threads, to load OpenImageIO");
     return STATUS_LIMIT;
   }
   if (handle == NULL) {
     load_first(flags);
-    handle = dlopen(IMAGE_MODULE_FILE, flags);
+    handle = module_open(IMAGE_MODULE_FILE, flags);
   }
   const struct image_module *module = handle == NULL ? NULL : dlsym(handle, IMAGE_MODULE_SYMBOL);
   *out = NULL;
@@ -147,6 +150,7 @@ enum status image_encode(const struct image *image, const struct image_encoding 
     snprintf(message, IMAGE_MESSAGE_SIZE, "the format can not hold these channels");
     return STATUS_FILE;
   }
+  if (encoding->format == IMAGE_PNG) return png_file_encode(image, encoding, out_bytes, out_size, message);
   const struct image_module *module;
   const enum status status = load_module(&module, message);
   return status == STATUS_OK ? module->encode(image, encoding, out_bytes, out_size, message) : status;

@@ -1,4 +1,4 @@
-/* Reads and writes picture files, through OpenImageIO.
+/* Reads and writes picture files. PNG is written by libpng, all else is done by OpenImageIO, loaded when first needed.
  *
  * A picture is encoded to memory; base/atomic_file.h then writes the bytes, so that a full disk is noticed and no file
  * is left half written. Failures write one line of text, without a newline, to message[IMAGE_MESSAGE_SIZE].
@@ -47,7 +47,7 @@ struct image_encoding {
   void *context;
 };
 
-/* Whether picture files can be read and written at all. Ask before long work: OpenImageIO is loaded when it is first
+/* Whether picture files can be read and EXR be written. Ask before long work: OpenImageIO is loaded when it is first
  * needed. Returns STATUS_FILE if it cannot be loaded, STATUS_LIMIT if memory is too short for it. In parallel with
  * other work: image_loading.h. */
 enum status image_file_ready(char *message) STATUS_MUST_CHECK;

@@ -22,10 +22,10 @@ static bool is_limited(int resource)
   return getrlimit(resource, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
 }
 
-void image_loading_begin(struct image_loading *loading)
+void image_loading_begin(struct image_loading *loading, bool needed)
 {
-  atomic_init(&loading->failed, 0);
-  atomic_init(&loading->seconds, 0);
+  *loading = (struct image_loading){.status = STATUS_OK};
+  if (!needed) return;
   loading->running = !is_limited(RLIMIT_AS) && !is_limited(RLIMIT_DATA) &&
                      pthread_create(&loading->thread, NULL, load_beside, loading) == 0;
   if (!loading->running) (void)load_beside(loading);

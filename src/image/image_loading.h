@@ -1,4 +1,5 @@
-/* Loads OpenImageIO in parallel with other work, because that takes longer than rendering a small picture. */
+/* Loads OpenImageIO in parallel with other work, because that takes longer than rendering a small picture. Nothing is
+ * loaded, and all is well, if it is not needed. */
 #ifndef PSCN_IMAGE_IMAGE_LOADING_H
 #define PSCN_IMAGE_IMAGE_LOADING_H
 
@@ -17,7 +18,7 @@ struct image_loading {
 };
 
 /* Starts loading. `loading` must stay in place until image_loading_end, which must follow. */
-void image_loading_begin(struct image_loading *loading);
+void image_loading_begin(struct image_loading *loading, bool needed);
 
 /* CPU seconds that loading has taken so far. They are in the process's time, but not in the other work's. To be called
  * after image_loading_begin, also after image_loading_end, by one thread. */

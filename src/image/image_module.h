@@ -1,7 +1,7 @@
-/* The interface of the module that reads and writes picture files.
+/* The interface of the module that reads picture files and writes EXR.
  *
  * OpenImageIO brings along some 250 shared libraries, which would cost every start of a program an eighth of a second
- * and 130 MB. The code that uses it is therefore a module of its own, IMAGE_MODULE_FILE, loaded for the first picture
+ * and 130 MB. The code that uses it is therefore a module of its own, IMAGE_MODULE_FILE, loaded for the first such
  * file. It exports one object, `image_module`. The functions are those of image_file.h after the arguments have been
  * checked; `format` is OpenImageIO's name of the file's format.
  */

@@ -2,7 +2,6 @@
  * it. */
 extern "C" {
 #include "image/image_module.h"
-#include "image/srgb.h"
 }
 
 #include <OpenImageIO/filesystem.h>
@@ -23,9 +22,6 @@ namespace
 
 using Bytes = std::vector<unsigned char>;
 
-/* In the order of enum image_format. */
-const char *const SUFFIXES[] = {".png", ".exr"};
-
 void say(char *message, const std::string &text)
 {
   const std::size_t end = text.find_first_of("\r\n");
@@ -34,7 +30,6 @@ void say(char *message, const std::string &text)
 
 OIIO::TypeDesc channel_type(const image_encoding &encoding, const image_channel &channel)
 {
-  if (encoding.format == IMAGE_PNG) return encoding.bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
   return encoding.bits == 16 && !channel.data ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
@@ -42,7 +37,7 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
 {
   OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
                        static_cast<int>(picture.channel_count), channel_type(encoding, picture.channel[0]));
-  if (encoding.format == IMAGE_EXR && picture.full_width != 0) {
+  if (picture.full_width != 0) {
     spec.x = static_cast<int>(picture.x);
     spec.y = static_cast<int>(picture.y);
     spec.full_width = static_cast<int>(picture.full_width);
@@ -59,9 +54,7 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
     mixed = mixed || spec.channelformats[c] != spec.format;
   }
   if (!mixed) spec.channelformats.clear();
-  /* OpenImageIO would take a fourth channel for opacity, and divide a PNG's others by it. */
-  if (encoding.format == IMAGE_PNG) spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("oiio:ColorSpace", encoding.format == IMAGE_PNG ? "sRGB" : "Linear");
+  spec.attribute("oiio:ColorSpace", "Linear");
   for (std::size_t k = 0; k < encoding.attribute_count; k++)
     spec.attribute(encoding.attributes[k].name, encoding.attributes[k].text);
   return spec;
@@ -74,8 +67,7 @@ template <typename Value> void put(unsigned char *&at, Value value)
 }
 
 /* Rows of pixels in the file's own types, packed. */
-Bytes native_rows(const image &picture, const image_encoding &encoding, const srgb_table &table, std::size_t row,
-                  std::size_t rows)
+Bytes native_rows(const image &picture, const image_encoding &encoding, std::size_t row, std::size_t rows)
 {
   const std::size_t pixels = picture.width * rows, begin = row * picture.width * picture.channel_count;
   std::vector<OIIO::TypeDesc> types;
@@ -88,17 +80,11 @@ Bytes native_rows(const image &picture, const image_encoding &encoding, const sr
   unsigned char *at = bytes.data();
   for (std::size_t k = 0; k < pixels * picture.channel_count; k++) {
     const float value = picture.value[begin + k];
-    switch (types[k % picture.channel_count].basetype) {
-    case OIIO::TypeDesc::UINT8: put(at, encoding.encoded ? srgb_code8(value) : srgb_encode8(&table, value)); break;
-    case OIIO::TypeDesc::UINT16: put(at, encoding.encoded ? srgb_code16(value) : srgb_encode16(value)); break;
-    case OIIO::TypeDesc::HALF: {
+    if (types[k % picture.channel_count] == OIIO::TypeDesc::HALF) {
       unsigned short half = 0;
       OIIO::convert_types(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &half, 1);
       put(at, half);
-      break;
-    }
-    default: put(at, value);
-    }
+    } else put(at, value);
   }
   return bytes;
 }
@@ -111,11 +97,9 @@ status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
   /* Whole blocks of every EXR compression, or one row of tiles. */
   const std::size_t most = encoding.tile == 0 ? 64 : static_cast<std::size_t>(encoding.tile);
   const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeDesc();
-  srgb_table table;
-  srgb_table_fill(&table);
   for (std::size_t row = 0; row < picture.height; row += most) {
     const std::size_t rows = std::min(most, picture.height - row);
-    const Bytes pixels = native_rows(picture, encoding, table, row, rows);
+    const Bytes pixels = native_rows(picture, encoding, row, rows);
     const int y = spec.y + static_cast<int>(row), end = y + static_cast<int>(rows);
     if (!(encoding.tile == 0 ? output.write_scanlines(y, end, 0, type, pixels.data())
                              : output.write_tiles(spec.x, spec.x + spec.width, y, end, 0, 1, type, pixels.data())))
@@ -132,13 +116,12 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   result = STATUS_FILE;
   OIIO::ImageSpec spec = make_spec(picture, encoding);
   OIIO::Filesystem::IOVecOutput proxy(file); /* outlives the output, whose destructor still writes into it */
-  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(SUFFIXES[encoding.format] + 1);
+  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("exr");
   if (!output) return "OpenImageIO: " + OIIO::geterror();
   if (!output->supports("ioproxy")) return "this OpenImageIO can not write the format to memory";
   if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
   /* The name only selects the format; the bytes go to the proxy. */
-  if (output->open(std::string("memory") + SUFFIXES[encoding.format], spec))
-    result = write_rows(*output, spec, picture, encoding);
+  if (output->open("memory.exr", spec)) result = write_rows(*output, spec, picture, encoding);
   if (result == STATUS_INTERRUPTED) return "interrupted";
   if (result == STATUS_OK && !output->close()) result = STATUS_FILE;
   if (result != STATUS_OK) return "OpenImageIO: " + output->geterror();
@@ -338,7 +321,7 @@ status module_begin(char *message)
   return guarded(
     message,
     [&] {
-      if (OIIO::ImageOutput::create(SUFFIXES[IMAGE_EXR] + 1)) return STATUS_OK;
+      if (OIIO::ImageOutput::create("exr")) return STATUS_OK;
       const std::string problem = OIIO::geterror();
       say(message, problem.empty() ? "there are too few threads" : "OpenImageIO: " + problem);
       return problem.empty() ? STATUS_LIMIT : STATUS_FILE;

@@ -4,14 +4,14 @@ work() {
 }
 scene=$SCENES/flat.pscn
 pscn render "$scene" -o a.png --size 20x10 --samples 2 --threads 1 --tolerance 1e-9 --stats - --quiet | work
-pscn render "$scene" -o a.png --size 20x10 --crop 2,1,8,4 --threads 5 --stats a.json --solver aberth --quiet
+pscn render "$scene" -o a.exr --size 20x10 --crop 2,1,8,4 --threads 5 --stats a.json --solver aberth --quiet
 grep -c -E '"(parse|build|render|write|load)": *[0-9]' a.json
 grep -E '"(solver|tolerance|threads|primary|samples)"' a.json
 grep -A 4 '"crop"' a.json
 grep -E '"(render|write|load)": 0\.0,?$' a.json # all takes some time
 # No CPU second counts twice, although libraries are loaded at the same time.
 TIMEFORMAT='%U %S'
-time (pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 800x600 --threads 1 --stats a.json --quiet 2>&3) \
+time (pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.exr --size 800x600 --threads 1 --stats a.json --quiet 2>&3) \
   3>&2 2>taken
 LC_ALL=C awk -F '[ :,]+' 'NR == FNR { gsub(",", "."); split($0, t, " "); process = t[1] + t[2]; next }
   /"cpu"/ { on = 1; next } /}/ { on = 0 } on { sum += $3 }

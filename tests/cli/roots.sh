@@ -13,6 +13,7 @@ printf '1 1 1\n1 -3 0\n' | try pscn roots --solver bernstein
 printf '2 -1\n1 0 0\n' | pscn roots --stats stats.json --tolerance 1e-3 | wc -l
 grep -v '"solve"' stats.json
 grep -c '"solve": 0\.0$' stats.json
+grep -A1 '"cpu"' stats.json | grep -c '"solve": [0-9]'
 printf '2 -1\n' | pscn roots --stats - --solver 'laguerre { form paper max_iterations 5 }' | grep -v '"solve"'
 # Answers come before the input ends.
 coproc pscn roots

@@ -137,10 +137,11 @@ wait
 expect 0 "$PSCN" compare a.png copy.png --quiet
 only a.png copy.png
 
-# Without the module that writes pictures, which is loaded while rendering begins: reported, and the rendering ends.
+# Without the module for EXR, which is loaded while rendering begins: reported, and the rendering ends. PNG needs none.
 mkdir alone
 cp "$PSCN" alone/pscn
-expect 4 timeout 60 alone/pscn render "$scene" --samples 64 --quiet -o b.png
+expect 0 alone/pscn render "$scene" $small -o copy.png
+expect 4 timeout 60 alone/pscn render "$scene" --samples 64 --quiet -o b.exr
 grep -q "cannot write pictures" "$said" || wrong "the missing module was not told"
 rm -r alone
 only a.png copy.png
@@ -148,20 +149,20 @@ only a.png copy.png
 # Little address space, too little for OpenImageIO (a sanitizer needs more for itself).
 if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 50000 200000 300000 395000 410000 425000 440000; do
-    (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "in $kilobytes KB"
+    (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.exr && exit "$failed") || wrong "in $kilobytes KB"
   done
   # The file of an earlier run stays whole if only the room for its pixels is missing.
   large="--size 6000x4000 --tile 1/23000"
   expect 0 "$PSCN" render "$scene" $large -o large.exr.part.exr
   kilobytes=440000
-  until (ulimit -v $kilobytes && "$PSCN" render "$scene" $small -o b.png) >"$said" 2>&1; do kilobytes=$((kilobytes + 20000)); done
+  until (ulimit -v $kilobytes && "$PSCN" render "$scene" $small -o b.exr) >"$said" 2>&1; do kilobytes=$((kilobytes + 20000)); done
   (ulimit -v $((kilobytes + 300000)) && "$PSCN" render "$scene" $large -o large.exr) >"$said" 2>&1
   grep -q -e '--resume goes on' "$said" || wrong "a part that there is no room for is called useless"
-  rm -f b.png large.exr*
+  rm -f b.exr large.exr*
   # Little memory for data, few threads, little stack: too little for OpenImageIO, or for a hard ray (a sanitizer needs
   # more, as above).
   for kilobytes in 40000 70000 85000 100000; do
-    (ulimit -d $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "with $kilobytes KB of data"
+    (ulimit -d $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.exr && exit "$failed") || wrong "with $kilobytes KB of data"
   done
   chmod 644 copy.png
   user=$((10000 + $$ % 50000)) # one that runs nothing else: threads are counted by user

@@ -12,7 +12,7 @@ cd "$folder"
 cpack --config "$1/CPackConfig.cmake" -B "$folder" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >cpack.log 2>&1 || { cat cpack.log; exit 1; }
 dpkg-deb -x pscn_*.deb root
 depends=$(dpkg-deb -f pscn_*.deb Depends)
-for package in libc6 libopenimageio libjansson4 libstdc++6; do
+for package in libc6 libopenimageio libpng16-16 libjansson4 libstdc++6; do
   [[ $depends == *"$package"* ]] || { echo "Depends has no $package: $depends"; exit 1; }
 done
 [ "$(dpkg-deb -f pscn_*.deb Package)" = pscn ]
@@ -20,12 +20,12 @@ done
 
 cp "$PSCN_SOURCE_DIR/scenes/bent.pscn" .
 env -i ${LSAN_OPTIONS:+"LSAN_OPTIONS=$LSAN_OPTIONS"} ${ASAN_OPTIONS:+"ASAN_OPTIONS=$ASAN_OPTIONS"} \
-  LD_DEBUG=libs LD_DEBUG_OUTPUT=libs root/usr/bin/pscn render bent.pscn --size 40x30 -q
-[ -s bent.png ] || { echo "there is no picture"; exit 1; }
+  LD_DEBUG=libs LD_DEBUG_OUTPUT=libs root/usr/bin/pscn render bent.pscn --size 40x30 -q -o bent.exr
+[ -s bent.exr ] || { echo "there is no picture"; exit 1; }
 loaded=$(grep -ho 'calling init: .*pscn_openimageio.so' libs.*)
 [[ $loaded == *"$folder"/root/usr/* ]] || { echo "the module is another one: $loaded"; exit 1; }
-"$PSCN" render bent.pscn --size 40x30 -q -o built.png
-"$PSCN" compare bent.png built.png --fail 0 -q
+"$PSCN" render bent.pscn --size 40x30 -q -o built.exr
+"$PSCN" compare bent.exr built.exr --fail 0 -q
 
 # Nothing is outside /usr, nothing is writable for others.
 [ -z "$(find root -mindepth 1 -maxdepth 1 ! -name usr)" ]

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "chart/work.h"
-#include "check/page.h"
+#include "page/page.h"
 #include "cmocka_test.h"
 #include "unit/drawn.h"
 #include "unit/expect_json.h"

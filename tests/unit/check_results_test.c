@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "check/measure.h"
-#include "check/page.h"
+#include "page/page.h"
 #include "cmocka_test.h"
 #include "unit/drawn.h"
 #include "unit/expect_json.h"

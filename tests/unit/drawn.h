@@ -2,7 +2,7 @@
 #ifndef TESTS_UNIT_DRAWN_H
 #define TESTS_UNIT_DRAWN_H
 
-#include "check/plot.h"
+#include "page/plot.h"
 
 static json_t *drawn; /* the last values */
 

@@ -1,6 +1,6 @@
 /* Templates: their contents, and the values that fill them; foreign text made printable. */
-#include "check/fill.h"
-#include "check/page.h"
+#include "page/fill.h"
+#include "page/page.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Other programs: their surroundings, how they end, and that they do. */
-#include "check/process.h"
+#include "page/process.h"
 
 #include <errno.h>
 #include <poll.h>

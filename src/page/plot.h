@@ -1,6 +1,6 @@
 /* Figures, drawn by gnuplot if it is installed. */
-#ifndef PSCN_CHECK_PLOT_H
-#define PSCN_CHECK_PLOT_H
+#ifndef PSCN_PAGE_PLOT_H
+#define PSCN_PAGE_PLOT_H
 
 #include <jansson.h>
 

@@ -1,5 +1,5 @@
 /* Runs POV-Ray 3.7. See povray.h. */
-#include "check/povray.h"
+#include "page/povray.h"
 
 #include <errno.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
-#include "check/process.h"
+#include "page/process.h"
 #include "image/image_file.h"
 #include "language/plain_copy.h"
 #include "scene/dump.h"

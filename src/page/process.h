@@ -4,8 +4,8 @@
  * nonzero, or its time is over, the whole group is asked to end, then forced to, and the program is reaped. If we are
  * killed, Linux kills it too. Only one program at a time, started by a thread that outlives it.
  */
-#ifndef PSCN_CHECK_PROCESS_H
-#define PSCN_CHECK_PROCESS_H
+#ifndef PSCN_PAGE_PROCESS_H
+#define PSCN_PAGE_PROCESS_H
 
 #include <stdatomic.h>
 #include <stdbool.h>

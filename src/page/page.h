@@ -1,6 +1,6 @@
-/* Values for pages (check/fill.h), and the files of pages. */
-#ifndef PSCN_CHECK_PAGE_H
-#define PSCN_CHECK_PAGE_H
+/* Values for pages (page/fill.h), and the files of pages. */
+#ifndef PSCN_PAGE_PAGE_H
+#define PSCN_PAGE_PAGE_H
 
 #include <jansson.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* Values for pages, and their files. Base64: RFC 4648, section 4. */
-#include "check/page.h"
+#include "page/page.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include <time.h>
 
 #include "base/atomic_file.h"
-#include "check/templates.h"
+#include "page/templates.h"
 #include "image/image_file.h"
 #include "library/pscn.h"
 

@@ -1,6 +1,6 @@
 /* A temporary folder for one command, and the files in it. */
-#ifndef PSCN_CHECK_SCRATCH_H
-#define PSCN_CHECK_SCRATCH_H
+#ifndef PSCN_PAGE_SCRATCH_H
+#define PSCN_PAGE_SCRATCH_H
 
 #include <stddef.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #if defined(__linux__)
 #define _GNU_SOURCE /* for syscall */
 #endif
-#include "check/process.h"
+#include "page/process.h"
 
 #include <errno.h>
 #include <fcntl.h>

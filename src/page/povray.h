@@ -5,15 +5,15 @@
  * running programs are on; each run has a new folder and may write nowhere else (if the system can enforce that); and
  * its time, memory and files are limited. If it fails, its output is shown, made printable. Errors go to the listener.
  */
-#ifndef PSCN_CHECK_POVRAY_H
-#define PSCN_CHECK_POVRAY_H
+#ifndef PSCN_PAGE_POVRAY_H
+#define PSCN_PAGE_POVRAY_H
 
 #include <stddef.h>
 
 #include "base/clock.h"
 #include "base/listener.h"
 #include "base/text_buffer.h"
-#include "check/scratch.h"
+#include "page/scratch.h"
 #include "image/image.h"
 #include "intersect/intersect.h"
 #include "scene/scene.h"

@@ -1,6 +1,6 @@
 /* A temporary folder. See scratch.h. */
 #define _GNU_SOURCE /* nftw, MAP_ANONYMOUS */
-#include "check/scratch.h"
+#include "page/scratch.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -13,8 +13,8 @@
  * A section must not contain another one of its own name. The values are a tree of jansson's. Numbers are written in
  * the same way in every locale.
  */
-#ifndef PSCN_CHECK_FILL_H
-#define PSCN_CHECK_FILL_H
+#ifndef PSCN_PAGE_FILL_H
+#define PSCN_PAGE_FILL_H
 
 #include <jansson.h>
 

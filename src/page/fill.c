@@ -1,5 +1,5 @@
 /* Fills in templates. */
-#include "check/fill.h"
+#include "page/fill.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,13 +1,13 @@
 /* Runs gnuplot. */
-#include "check/plot.h"
+#include "page/plot.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "check/fill.h"
-#include "check/process.h"
-#include "check/scratch.h"
+#include "page/fill.h"
+#include "page/process.h"
+#include "page/scratch.h"
 
 static const char SCRIPT[] = "figure.gp", FIGURE[] = "figure.svg", LOG[] = "gnuplot.log";
 
