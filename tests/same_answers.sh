@@ -25,7 +25,7 @@ awk -v n="${RAYS:-2000}" 'BEGIN { srand(20240511); for (k = 0; k < n; k++) {
   >"$work/rays"
 
 kernels=()
-for kernel in baseline avx2 avx512 avx512_narrow; do
+for kernel in baseline avx2 avx512; do
   if head -n 1 "$work/rays" | PSCN_KERNEL=$kernel "$new" trace --quiet "$folder/scenes/inside.pscn" >/dev/null 2>&1; then
     kernels+=("$kernel")
   fi

@@ -9,14 +9,9 @@
 
 #include "base/lanes.h"
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-#define FLOAT_LANES 16
-#define FLOAT_LANES_OP(name) _mm512_##name
-#else
 #define FLOAT_LANES (2 * LANES)
 #if defined(LANES_OP)
 #define FLOAT_LANES_OP(name) LANES_OP(name)
-#endif
 #endif
 
 /* The number of these packets. */
@@ -28,22 +23,13 @@ typedef int32_t float_mask __attribute__((vector_size(4 * FLOAT_LANES)));
 /* Lane k: x. */
 LANES_INLINE float_lanes float_lanes_all(float x) { return x - (float_lanes){0}; }
 
-#if LANES == 4
-LANES_INLINE __m256 float_lanes_of_two(const lanes x[2])
-{
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(x[0])), _mm256_cvtpd_ps(x[1]), 1);
-}
-#endif
-
 /* The doubles of all packets, rounded to nearest. x[0] goes to the first LANES lanes. */
 LANES_INLINE float_lanes float_lanes_join(const lanes x[PACKETS])
 {
 #if LANES == 8
   return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(x[0])), _mm512_cvtpd_ps(x[1]), 1);
-#elif LANES == 4 && FLOAT_LANES == 16
-  return _mm512_insertf32x8(_mm512_castps256_ps512(float_lanes_of_two(x)), float_lanes_of_two(x + 2), 1);
 #elif LANES == 4
-  return float_lanes_of_two(x);
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(x[0])), _mm256_cvtpd_ps(x[1]), 1);
 #elif defined(LANES_OP)
   return _mm_movelh_ps(_mm_cvtpd_ps(x[0]), _mm_cvtpd_ps(x[1]));
 #else

@@ -1,6 +1,6 @@
 /* Sources compiled once per instruction set and linked into one program (pscn_kernels in CMakeLists.txt).
  *
- * In these sources, PSCN_KERNEL is the name of the set: baseline, avx2, avx512 or avx512_narrow. KERNEL(name) is the
+ * In these sources, PSCN_KERNEL is the name of the set: baseline, avx2 or avx512. KERNEL(name) is the
  * name that one compilation gives, and KERNEL_NAME the set's name as a text. Elsewhere, PSCN_HAS_AVX2 and
  * PSCN_HAS_AVX512 say which sets there are besides the baseline, and KERNEL_RUNS_... whether this processor has them.
  * KERNEL_BEST(name) is the best version of a function or object that is compiled for the baseline and AVX2.

@@ -2,9 +2,8 @@
  *
  * Plain GCC/clang vector extensions, so one source serves every instruction set. LANES is what one register of the
  * target holds; the compiler takes wider vectors apart into single doubles, which costs more than they save.
- * PSCN_NARROW halves LANES, for work that would leave most lanes empty. Arithmetic operators work lane by lane; a
- * comparison gives a mask whose lanes are 0 or -1. A source that uses this is compiled once per instruction set
- * (base/kernel.h).
+ * Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1. A source that uses this is
+ * compiled once per instruction set (base/kernel.h).
  */
 #ifndef PSCN_BASE_LANES_H
 #define PSCN_BASE_LANES_H
@@ -17,7 +16,7 @@
 #endif
 
 /* LANES_OP(min_pd) is the intrinsic of that name for the whole register. Without SSE2 there are none. */
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && !defined(PSCN_NARROW)
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define LANES 8
 #define LANES_OP(name) _mm512_##name
 #elif defined(__AVX__)

@@ -19,13 +19,13 @@ struct intersector {
 enum { FEW_RAYS = 4 };
 
 /* Each is at the end of one compilation of lanes/walk.c (lanes/names.h). */
-extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512, kernel_avx512_narrow;
+extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512;
 
 size_t kernels_here(const struct kernel *out[KERNELS_MAX])
 {
   size_t count = 0;
 #if defined(PSCN_HAS_AVX512)
-  if (KERNEL_RUNS_AVX512) out[count++] = &kernel_avx512, out[count++] = &kernel_avx512_narrow;
+  if (KERNEL_RUNS_AVX512) out[count++] = &kernel_avx512;
 #endif
 #if defined(PSCN_HAS_AVX2)
   if (KERNEL_RUNS_AVX2) out[count++] = &kernel_avx2;
@@ -63,8 +63,8 @@ static bool go_apart(size_t count, const struct ray rays[])
 static const struct kernel *kernel_for(const struct tracer *tracer, size_t count, const struct ray rays[])
 {
 #if defined(PSCN_HAS_AVX512) /* then AVX2 is there too: base/kernel.h */
-  if (tracer->kernel == &kernel_avx512 && count <= FEW_RAYS) return &kernel_avx2;
-  if (tracer->kernel == &kernel_avx512 && !tracer->warm && go_apart(count, rays)) return &kernel_avx512_narrow;
+  if (tracer->kernel == &kernel_avx512 && (count <= FEW_RAYS || (!tracer->warm && go_apart(count, rays))))
+    return &kernel_avx2;
 #endif
   (void)count, (void)rays;
   return tracer->kernel;

@@ -90,7 +90,7 @@ struct intersector;
 struct tracer;
 
 /* Whether this processor and this program have the instruction set that the environment variable PSCN_KERNEL asks for
- * (baseline, avx2, avx512 or avx512_narrow; none: the best there is). */
+ * (baseline, avx2 or avx512; none: the best there is). */
 bool intersector_kernel_here(void);
 
 /* The kind of that set's arithmetic, "fused" or "baseline" by whether products are rounded before they are added to,

@@ -24,7 +24,7 @@ struct kernel {
   bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
 };
 
-enum { KERNELS_MAX = 4 };
+enum { KERNELS_MAX = 3 };
 
 /* intersect.c: the kernels that this processor can run, best first; returns how many. */
 size_t kernels_here(const struct kernel *out[KERNELS_MAX]);
@@ -36,7 +36,7 @@ struct warm_leaf {
 };
 
 /* At most this many packets are side by side (base/float_lanes.h). */
-enum { PACKETS_MAX = 4 };
+enum { PACKETS_MAX = 2 };
 
 /* Leaves that the model does not keep, made recently. */
 enum { MADE_BITS = 9 };

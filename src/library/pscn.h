@@ -15,7 +15,7 @@
  *
  * The library prints nothing, handles no signal, starts no thread and never ends the process. It ignores the locale. It
  * reads one environment variable, PSCN_KERNEL, which chooses the instruction set that scenes are made for: baseline,
- * avx2, avx512 or avx512_narrow. If the processor lacks it, building a scene returns PSCN_USAGE. The caller's rounding
+ * avx2 or avx512. If the processor lacks it, building a scene returns PSCN_USAGE. The caller's rounding
  * mode, flush-to-zero and floating-point traps have no effect on answers; each call restores them, and the exception
  * flags. Functions return a status. Messages, which say what was wrong and where, are kept with the scene.
  *

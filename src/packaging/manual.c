@@ -79,7 +79,7 @@ static void put_end(FILE *file, const struct command *command)
   fputs(".SH ENVIRONMENT\n.TP\n\\fBPSCN_INCLUDE\\fR\n"
         "Folders in which files that a scene includes are looked for, with colons between them.\n"
         ".TP\n\\fBPSCN_KERNEL\\fR\n"
-        "The instruction set: baseline, avx2, avx512 or avx512_narrow. Without it the best that the processor has.\n"
+        "The instruction set: baseline, avx2 or avx512. Without it the best that the processor has.\n"
         ".SH SEE ALSO\n",
         file);
   if (command != NULL) fputs("\\fBpscn\\fR(1)", file);

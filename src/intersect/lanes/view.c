@@ -102,7 +102,7 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
     for (int k = 0; k < 3; k++) from[k][h] = it.from[k], along[k][h] = it.along[k];
     slack[h] = it.slack, view->start[h] = it.start, view->unit[h] = it.unit;
   }
-  for (int h = packets; h < PACKETS; h++) { /* as the last */
+  for (int h = packets; h < PACKETS; h++) { /* as the other */
     for (int k = 0; k < 3; k++) from[k][h] = from[k][packets - 1], along[k][h] = along[k][packets - 1];
     slack[h] = slack[packets - 1];
   }
@@ -164,7 +164,7 @@ __attribute__((noinline)) static void set_many(struct view *view, const struct p
                                                const struct model_tree *tree)
 {
   if (packets == 1) set(view, packet, 1, tree);
-  else set(view, packet, PACKETS == 2 ? 2 : packets, tree);
+  else set(view, packet, PACKETS, tree);
 }
 
 void view_set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree)
