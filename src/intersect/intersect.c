@@ -118,8 +118,7 @@ void intersector_destroy(struct intersector *intersector)
 
 void tracer_begin(const struct intersector *intersector, struct tracer *out)
 {
-  *out = (struct tracer){
-    .model = intersector->model, .kernel = intersector->kernel, .epoch = 1, .most_looks = MOST_LOOKS};
+  *out = (struct tracer){.model = intersector->model, .kernel = intersector->kernel, .epoch = 1, .budget = RAY_BUDGET};
 }
 
 enum status tracer_create(const struct intersector *intersector, struct tracer **out)

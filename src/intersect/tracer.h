@@ -18,7 +18,7 @@ struct kernel {
   const char *name;
   /* returns, as bits, the rays whose answers are not certain and might differ in another packet */
   unsigned (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
-  /* returns whether it gave up some rays */
+  /* returns whether some rays are to be asked again alone */
   bool (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
   /* returns whether there was enough memory */
   bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
@@ -56,10 +56,20 @@ struct gather {
   bool failed;            /* memory was short */
 };
 
-/* How many looks at boxes, of the hierarchy or along leaves, a ray may take before it is given up: its answer is then
- * what is known so far, and grazing. A look takes 15 to 60 ns, depending on where the box is in memory, so all take a
- * tenth of a second at most. A leaf costs more than one look (packet.h). */
-enum { MOST_LOOKS = 1 << 21 };
+/* The budget of a ray, in units of one box of the hierarchy looked at, some 25 ns. All work is charged to it, by the
+ * costs below. A ray that has exhausted it goes no further: its answer is what is known by then, and grazing. The last
+ * resort gets what the lanes leave of it. A choice: some 8 ms. */
+enum { RAY_BUDGET = 1 << 18 };
+
+/* In a packet, the leaves that reach a ray, and their order, depend on its neighbours; so would the point where its
+ * budget ends. It gets an eighth there, and is asked again alone if that is not enough (intersect.c). */
+enum { BUDGET_IN_COMPANY = 3 };
+
+/* Making a leaf that is not kept; being tried on a leaf, once the slab test in doubles passes; the planes' polynomials;
+ * a box of a leaf's parameters; the resultant and one of its roots; a box that the last resort examines. Sweeps over all
+ * roots of r cost a unit for so many products of roots. */
+enum { COST_MADE = 32, COST_TRIED = 16, COST_PLANES = 24, COST_BOX = 4, COST_RESULTANT = 64, COST_EXACT = 16 };
+enum { PRODUCTS_A_UNIT = 8 };
 
 struct tracer {
   const struct model *model;
@@ -70,7 +80,7 @@ struct tracer {
   struct made_leaf *made;            /* 2^MADE_BITS; NULL if leaves are kept, or made anew for each request */
   struct gather gather[PACKETS_MAX]; /* of packets side by side */
   struct growing hits;               /* struct hit: all lists of the last call of tracer_all */
-  int most_looks;                    /* MOST_LOOKS; less in tests */
+  int budget;                        /* RAY_BUDGET; less in tests */
   struct explainer *explainer;       /* explain.c; NULL if nobody asks */
 };
 
@@ -78,7 +88,7 @@ struct tracer {
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
 
 /* Whether, of `count` rays together, those are asked again alone whose answers are not certain or would take much work.
- * What the last resort finds out about a ray, and where its share of work ends, depends on the leaves that came to it;
+ * What the last resort finds out about a ray, and where its budget ends, depends on the leaves that came to it;
  * these depend on how soon the rays beside it made the walk find something nearer. Not with warm starts, which go from
  * ray to ray in any case, nor if nothing is proven, when all would be asked twice. */
 static inline bool tracer_asks_again(const struct tracer *tracer, size_t count)

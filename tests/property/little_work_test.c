@@ -77,18 +77,18 @@ static void of_lines_few_are_tried(void **state)
 
 /* ---- twins ---- */
 
-/* Patches that lie exactly on the first one take no work, however many there are: a ray has few looks, and is certain
+/* Patches that lie exactly on the first one take no work, however many there are: a ray has a small budget, and is certain
  * nevertheless. */
 static void of_twins_none_is_looked_at(void **state)
 {
   (void)state;
-  enum { FEW_LOOKS = 1000 }; /* what the first one needs is some 500 */
+  enum { BUDGET = 1000 }; /* what the first one needs is some 500 */
   world_net nets[NETS];
   struct random random = {SEED + 8};
   struct world world;
   for (size_t n = 0; n < NETS; n++) sheet(0, nets[n]);
   world_open(&world, nets, NETS, NULL);
-  world.tracer->most_looks = FEW_LOOKS;
+  world.tracer->budget = BUDGET;
   size_t hits = 0;
   for (int n = 0; n < NET_RAYS; n++) {
     struct ray ray = {.t_max = INFINITY};

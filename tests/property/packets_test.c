@@ -82,9 +82,9 @@ static void rays_apart_do_not_depend_on_companions(void **state)
 
 /* Patches all through one another in one place. Many rays pass more leaves than a ray may be tried on. Which leaves
  * are tried depends on their order; what is certain of the ray must not. */
-static void rays_whose_share_ends_do_not_depend_on_companions(void **state)
+static void exhausted_rays_do_not_depend_on_companions(void **state)
 {
-  enum { HEAP = 20000, RAYS = 120, FEW = 3, FEW_LOOKS = 1 << 17 };
+  enum { HEAP = 20000, RAYS = 120, FEW = 3, BUDGET = 1 << 16 };
   struct random random = {SEED + 5};
   struct world world;
   struct method options;
@@ -98,7 +98,7 @@ static void rays_whose_share_ends_do_not_depend_on_companions(void **state)
   for (size_t p = 0; p < HEAP; p++)
     for (int k = 0; k < 48; k++) nets[p][k / 12][k / 3 % 4][k % 3] = random_between(&random, -1, 1);
   world_open(&world, nets, HEAP, &options);
-  world.tracer->most_looks = FEW_LOOKS;
+  world.tracer->budget = BUDGET;
   for (int n = 0; n < RAYS; n++) {
     rays[n] = (struct ray){.t_max = INFINITY};
     for (int k = 0; k < 3; k++) {
@@ -270,7 +270,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(answers_do_not_depend_on_companions),
     cmocka_unit_test(rays_apart_do_not_depend_on_companions),
-    cmocka_unit_test(rays_whose_share_ends_do_not_depend_on_companions),
+    cmocka_unit_test(exhausted_rays_do_not_depend_on_companions),
     cmocka_unit_test(rays_through_a_crowded_corner_do_not_depend_on_companions),
     cmocka_unit_test(occluded_is_whether_there_is_a_hit),
     cmocka_unit_test(kernels_agree),

@@ -292,6 +292,7 @@ bool exact_all(const struct exact_case *asked, struct exact_list *list)
   struct judge j;
   judge_run(&j, asked, true, list);
   j.work = ALL_WORK + WORK_HIT * (int)(list->count < HITS_MOST ? list->count : HITS_MOST);
+  if ((uint64_t)j.work > asked->limit) j.work = (int)asked->limit;
   sort(list);
   for_runs(&j, leave_out_same);
   list_close(list);

@@ -109,6 +109,7 @@ struct exact_case {
   size_t region_count;
   double cut_from; /* neither what was left out nor a doubt begins before this t; infinite for none */
   uint64_t *work;  /* the work done is added, in boxes examined (judge.h) */
+  uint64_t limit;  /* no more of it may be done */
 };
 
 enum exact_verdict {

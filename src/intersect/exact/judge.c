@@ -388,7 +388,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
   *j = (struct judge){.asked = asked,
                       .all = all,
                       .list = list,
-                      .work = JUDGE_WORK,
+                      .work = asked->limit < JUDGE_WORK ? (int)asked->limit : JUDGE_WORK,
                       .undecided = INFINITY,
                       .tied_from = INFINITY,
                       .patch = UINT32_MAX};

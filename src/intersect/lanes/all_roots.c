@@ -118,7 +118,6 @@ static lane_mask all_roots_solve(struct packet *p, const struct candidate *it, l
                                  struct roots_lanes *out)
 {
   const struct solver_options *options = &it->patch->method->roots;
-  active &= p->postponed->sweeps > 0;
   if (!lanes_any(active)) return active;
   out->method = it->patch->lanes;
   struct solver_warm *warm = p->model == p->tracer->model ? tracer_warm(p->tracer, it->patch->method, it->number)
@@ -126,8 +125,7 @@ static lane_mask all_roots_solve(struct packet *p, const struct candidate *it, l
   all_roots_start(out, warm, active);
   const double settled = options->tolerance > ROOTS_SETTLED ? options->tolerance : ROOTS_SETTLED;
   const lane_mask done = roots_lanes_run(out, active, enough, settled, options->max_iterations);
-  p->postponed->sweeps -= out->sweeps;
-  packet_spent(p, active);
+  packet_charge(p, __builtin_convertvector(out->sweeps * (1.0 / PRODUCTS_A_UNIT), lane_mask));
   all_roots_keep(out, done, warm);
   for (int k = 0; k < out->degree; k++) p->tracer->counts.roots_found += lanes_count(done & ~out->moving[k]);
   return done;

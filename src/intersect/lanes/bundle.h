@@ -1,5 +1,5 @@
-/* A bundle: packets whose rays go through a tree together, their view of it, their share of work, and the leaves that
- * they put off.
+/* A bundle: packets whose rays go through a tree together, their view of it, whether their budgets last, and the leaves
+ * that they put off.
  *
  * Internal to src/intersect/lanes: walk.c includes it.
  */
@@ -32,34 +32,34 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
   bundle_update(b);
 }
 
-/* Gives up rays that have used up their looks. Out of line, because it is rare. */
-__attribute__((noinline)) static void bundle_let_go(struct bundle *b, unsigned rays)
+/* Stops rays that have exhausted their budgets. Out of line, because it is rare. */
+__attribute__((noinline)) static void bundle_exhaust(struct bundle *b, unsigned rays)
 {
   for (struct packet *p = b->packet; rays; p++, rays >>= LANES) {
     const unsigned here = rays & lanes_bits(p->live);
     if (here && !p->oriented) packet_orient(p);
-    if (here) packet_give_up(p, here);
+    if (here) packet_exhaust(p, here);
   }
   bundle_update(b);
 }
 
-/* Counts boxes that the rays have looked at together. Each ray is charged for all of them, for those that it would look
+/* Charges boxes that the rays have looked at together. Each ray is charged for all of them, for those that it would look
  * at alone are among them. */
 static void bundle_looked(struct bundle *b, int64_t looks)
 {
-  unsigned worn = 0;
+  unsigned exhausted = 0;
   for (int h = 0; h < b->packets; h++) {
-    const lane_mask left = packet_spend(&b->packet[h], looks + (lane_mask){0});
-    worn |= lanes_bits(left < 0) << h * LANES;
+    packet_charge(&b->packet[h], looks + (lane_mask){0});
+    exhausted |= lanes_bits(b->packet[h].postponed->left < 0) << h * LANES;
   }
-  if (worn & b->live) bundle_let_go(b, worn & b->live);
+  if (exhausted & b->live) bundle_exhaust(b, exhausted & b->live);
 }
 
-/* Counts a box that one ray looks at. Returns whether it may. */
+/* Charges a box that one ray looks at. Returns whether its budget lasts. */
 LANES_INLINE bool ray_looks(struct bundle *b, unsigned lane)
 {
-  if (--b->packet[lane / LANES].postponed->looks[lane % LANES] >= 0) return true;
-  bundle_let_go(b, 1u << lane);
+  if (--b->packet[lane / LANES].postponed->left[lane % LANES] >= 0) return true;
+  bundle_exhaust(b, 1u << lane);
   return false;
 }
 

@@ -10,17 +10,6 @@
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
 
-/* Out of line, because it is rare. A ray that comes past so many leaves runs along something thin, of which the walk's
- * floats tell little. A leaf whose box it misses to the last places does not count as tried. Returns the lanes that are
- * done with the leaf, or with all leaves. */
-__attribute__((noinline)) static lane_mask candidate_worn(struct packet *p, const struct candidate *it, lane_mask many)
-{
-  const lane_mask passed = many & ~stage_box(it, many), left = packet_spend(p, passed & -LOOKS_TRIED);
-  const lane_mask worn = many & ~passed & (left < 0);
-  if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn));
-  return passed | worn;
-}
-
 /* A leaf whose derivatives turn by more than this fraction of their size has its root far from that of its bilinear
  * part. An iteration for the latter is then in vain, and the next one's warm start is lost. A choice of speed, because
  * the result is proven. */
@@ -77,15 +66,8 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 {
   const struct model_patch *patch = it->patch;
   uint64_t *entered = p->tracer->counts.stages;
-  const lane_mask met = open & LOOKS_MET;
   open = stage_slab(p, it, open);
-  const lane_mask left = packet_spend(p, met + (open & LOOKS_TRIED)),
-                  many = open & (left < p->postponed->most_looks / 2);
-  if (lanes_any(many)) open &= ~candidate_worn(p, it, many);
-  if (p->postponed->full) {
-    const lane_mask full = open & lanes_mask(p->postponed->full);
-    leave_open(p, it, full), open &= ~full;
-  }
+  packet_charge(p, open & COST_TRIED);
   if (it->leaf->pole && patch->method->polish) open = stage_pole(p, it, open);
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
@@ -98,7 +80,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     open = candidate_put_off(p, it, open);
     if (!lanes_any(open)) return;
   }
-  (void)packet_spend(p, open & LOOKS_DEAR); /* the next leaf checks what is left */
+  packet_charge(p, open & COST_PLANES);
   entered[STAGE_PLANES] += lanes_count(open);
   open = stage_planes(p, it, open);
   if (lanes_any(open & it->along)) /* no later stage could decide that */
@@ -108,6 +90,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     open = stage_cover(p, it, open);
     if (!lanes_any(open)) return;
   }
+  packet_charge(p, open & COST_RESULTANT);
   entered[STAGE_RESULTANT] += lanes_count(open);
   open = stage_resultant(it, open);
   if (!lanes_any(open)) return;

@@ -43,10 +43,6 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
 /* planes.c: a lower bound on the t at which the ray enters the box along the leaf. */
 lanes slab_begin(const struct packet *p, const struct candidate *it);
 
-/* planes.c: tests the box along the leaf to the last places. Closes lanes that miss it. The walk has tested this box in
- * floats, which is enough for all rays but those that come past many leaves. */
-lane_mask stage_box(const struct candidate *it, lane_mask open);
-
 /* planes.c, for a leaf with a pole: closes lanes whose ray passes near the pole and is proven to miss the leaf, or
  * starts exactly in the pole and meets no other point of the leaf. They would go through several stages, or all, in
  * vain. */

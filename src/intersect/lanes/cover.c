@@ -114,8 +114,7 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *leaf = &stack[0];
   struct cover_ray ray = {.leaf = it->leaf, .count = count, .roots = roots, .halvings = halvings};
-  const lane_mask asked = open;
-  lanes from, to, off, *splits = &p->postponed->splits;
+  lanes from, to, off;
   /* up to t_max and not the nearest hit so far, or answers would depend on the way through the hierarchy */
   ray_ends(p, it, p->t_max, &from, &to, &off);
   off += 2 * it->line->error;
@@ -126,15 +125,13 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
     leaf->u = leaf->v = 0, leaf->size_u = leaf->size_v = 1, leaf->halvings = 0;
     ray.size = real_max(net_size(&leaf->a), net_size(&leaf->b)), ray.error = it->line->error[lane];
     ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
-    const int given = (int)real_min((*splits)[lane], COVER_SPLITS);
-    ray.splits = given;
+    ray.splits = COVER_SPLITS;
     const bool covered = cover(&ray, stack);
-    (*splits)[lane] -= given - ray.splits;
+    p->postponed->left[lane] -= COST_BOX * (1 + 2 * (COVER_SPLITS - ray.splits));
     if (covered) continue;
     open &= ~lanes_mask(bits & -bits);
     if (left) left[0][lane] = ray.left[0], left[1][lane] = ray.left[1];
   }
-  packet_spent(p, asked);
   return open;
 }
 

@@ -32,7 +32,8 @@ static struct exact_case lane_case(const struct packet *p, unsigned lane)
                              .regions = postponed->region[lane],
                              .region_count = postponed->count[lane],
                              .cut_from = postponed->cut_from[lane],
-                             .work = &p->tracer->counts.work};
+                             .work = &p->tracer->counts.work,
+                             .limit = packet_exact_limit(p, lane)};
 }
 
 /* The lane's best root, which is certain. */
@@ -107,8 +108,8 @@ static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct
   else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);
 }
 
-/* A ray that was let go, or left more open than there is room for, may hit what was not examined. Every such ray counts
- * as hit, whatever else it meets, so that its answer does not depend on its neighbours. */
+/* A ray whose budget is exhausted, or that left more open than there is room for, may hit what was not examined. Every
+ * such ray counts as hit, whatever else it meets, so that its answer does not depend on its neighbours. */
 unsigned finish_occluded(const struct packet *p)
 {
   if (!p->oriented) return 0;
@@ -116,7 +117,9 @@ unsigned finish_occluded(const struct packet *p)
   for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     const struct exact_case asked = lane_case(p, lane);
+    const uint64_t before = *asked.work;
     if (exact_occluded(&asked)) hit |= 1u << lane;
+    if (*asked.work - before >= asked.limit) p->postponed->exhausted |= 1u << lane;
   }
   return hit;
 }
@@ -199,7 +202,7 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, s
 static unsigned decide_open(struct packet *p, struct hit out[])
 {
   unsigned written = 0;
-  for (unsigned bits = p->postponed->open & ~packet_let_go(p); bits; bits &= bits - 1) {
+  for (unsigned bits = p->postponed->open; bits; bits &= bits - 1) {
     const unsigned l = (unsigned)__builtin_ctz(bits);
     if (lane_decide(p, l, &out[l])) written |= 1u << l;
   }
@@ -260,6 +263,6 @@ unsigned finish_unsettled(const struct packet *p, const struct hit hits[])
   if (!p->oriented) return unsettled;
   const struct best *best = &p->best;
   const lane_mask known = best->certain | (best->patch == NO_PATCH);
-  const unsigned open = p->postponed->open | packet_let_go(p);
+  const unsigned open = p->postponed->open | p->postponed->exhausted;
   return unsettled & ~(lanes_bits(best->touches & known & ~best->doubt) & ~open);
 }

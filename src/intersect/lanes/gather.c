@@ -14,8 +14,6 @@ void gather_start(struct packet *p, struct gather *gather)
 {
   if (!p->oriented) packet_orient(p);
   p->gather = gather;
-  packet_set_share(p->postponed, p->postponed->share, LOOKS_OF_ALL * p->tracer->most_looks, MOST_OPEN_OF_ALL,
-                   MOST_SWEEPS_OF_ALL);
   gather->roots.count = gather->open.count = 0;
   gather->failed = gather->list.failed = false;
 }
@@ -151,7 +149,8 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
                                    .ray = &p->rays[lane],
                                    .regions = gather->regions.at,
                                    .region_count = gather->regions.count,
-                                   .work = &p->tracer->counts.work};
+                                   .work = &p->tracer->counts.work,
+                                   .limit = packet_exact_limit(p, lane)};
   const bool sure = exact_all(&asked, list);
   gather->failed |= list->failed;
   return sure;
@@ -204,11 +203,9 @@ static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathe
     reach = far > reach ? far : reach;
   }
   gather->regions.count = 0;
-  const bool anew = packet_let_go(p) >> lane & 1; /* its list will be made anew */
-  if (anew) certain = false;
-  else if (gather->open.count > 0) collect_regions(gather, lane);
+  if (gather->open.count > 0) collect_regions(gather, lane);
   /* A list in doubt is decided, too: on a line where leaves meet, each of them finds the same root. */
-  const bool decided = gather->regions.count > 0 || (tie && !anew && !p->model->unproven);
+  const bool decided = gather->regions.count > 0 || (tie && !p->model->unproven);
   if (decided) certain &= decide(p, lane, roots, count);
   out->certainty = certain ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
   out->count = decided ? gather->list.count : count;

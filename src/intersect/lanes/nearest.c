@@ -9,56 +9,13 @@
 #include "base/real.h"
 #include "intersect/lanes/gather.h"
 
-void packet_give_up(struct packet *p, unsigned worn)
+void packet_exhaust(struct packet *p, unsigned exhausted)
 {
-  p->postponed->let_go |= worn;
+  p->postponed->exhausted |= exhausted;
   for (struct packet *q = p; q; q = q->outer) {
-    q->live &= ~lanes_mask(worn), q->moved = true;
-    if (!q->outer) q->best.doubt |= lanes_mask(worn);
+    q->live &= ~lanes_mask(exhausted), q->moved = true;
+    if (!q->outer) q->best.doubt |= lanes_mask(exhausted);
   }
-}
-
-void packet_spent(struct packet *p, lane_mask active)
-{
-  const struct postponed *to = p->postponed;
-  if (to->share == SHARE_ALONE) return;
-  const lane_mask spent = active & ((to->splits <= 0) | (to->sweeps <= 0));
-  if (lanes_any(spent)) packet_give_up(p, lanes_bits(spent));
-}
-
-/* Counts the leaves left open. After too many, a ray that gathers hits gives up; otherwise further leaves are left open
- * untried, and cost as many looks as one that reaches the expensive stages. A ray in a packet whose share has ended is
- * let go. Returns the lanes that go on. */
-static lane_mask count_open(struct packet *p, lane_mask open)
-{
-  struct postponed *to = p->postponed;
-  unsigned worn = 0;
-  for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1)
-    if (++to->left[__builtin_ctz(bits)] > to->most_open) worn |= bits & -bits;
-  if (!p->gather && to->share == SHARE_ALONE) to->full |= worn, (void)packet_spend(p, lanes_mask(worn) & LOOKS_DEAR);
-  else if (worn) packet_give_up(p, worn);
-  return to->share > SHARE_ALONE ? open & ~lanes_mask(worn) : open;
-}
-
-/* Joins the region to that of its patch, if the list has one. */
-static bool join_region(struct exact_region list[], unsigned count, const struct exact_region *region)
-{
-  for (unsigned k = 0; k < count; k++) {
-    if (list[k].patch != region->patch) continue;
-    exact_region_join(&list[k], region);
-    return true;
-  }
-  return false;
-}
-
-/* Merges the regions of each patch; from here on it has one. Out of line, because it is rare. */
-__attribute__((noinline)) static void merge_regions(struct postponed *to, unsigned lane)
-{
-  struct exact_region *list = to->region[lane];
-  unsigned kept = 0;
-  for (unsigned k = 0; k < to->count[lane]; k++)
-    if (!join_region(list, kept, &list[k])) list[kept++] = list[k];
-  to->count[lane] = kept, to->merged |= 1u << lane;
 }
 
 /* Leaves out the one that begins last, of the patches on the full list and one more. From then on, what begins there or
@@ -72,17 +29,17 @@ static void leave_out_last(struct postponed *to, unsigned lane, const struct exa
   if (region->near < last->near) *last = *region;
 }
 
+/* Adds the region to that of its patch, or to the list. */
 static void list_region(struct postponed *to, unsigned lane, const struct exact_region *region)
 {
-  const unsigned *count = &to->count[lane];
+  const unsigned count = to->count[lane];
   struct exact_region *list = to->region[lane];
-  if (*count > 0 && exact_region_equal(&list[*count - 1], region)) {
-    exact_region_join(&list[*count - 1], region);
+  for (unsigned k = 0; k < count; k++) {
+    if (list[k].patch != region->patch) continue;
+    exact_region_join(&list[k], region);
     return;
   }
-  if (*count == EXACT_REGIONS_MAX && !(to->merged >> lane & 1)) merge_regions(to, lane);
-  if (to->merged >> lane & 1 && join_region(list, *count, region)) return;
-  if (*count < EXACT_REGIONS_MAX) list[to->count[lane]++] = *region;
+  if (count < EXACT_REGIONS_MAX) list[to->count[lane]++] = *region;
   else leave_out_last(to, lane, region);
 }
 
@@ -95,7 +52,6 @@ static void postpone(struct packet *p, const struct exact_region *region, lanes 
   near = lanes_max(near, lanes_all(-INFINITY)); /* or not a number */
   if (!p->gather) open &= ~(near >= to->cut_from);
   p->tracer->counts.escalated += lanes_count(open);
-  open = count_open(p, open);
   if (p->gather) {
     gather_postpone(p->gather, region, lanes_bits(open));
     return;

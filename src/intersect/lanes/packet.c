@@ -82,12 +82,15 @@ __attribute__((noinline)) static void packet_copied(struct packet *p, struct rea
 }
 
 void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
-                  bool any, int share)
+                  bool any, int budget)
 {
+  struct postponed *postponed = &ready->postponed;
   ready->copied = false;
-  packet_set_ready(&ready->postponed, tracer, share);
+  postponed->left = budget + (lane_mask){0}, postponed->cut_from = lanes_all(INFINITY);
+  postponed->open = postponed->exhausted = 0;
+  for (int l = 0; l < LANES; l++) postponed->count[l] = 0;
   if (count == 1 || count == LANES) {
-    packet_start(p, tracer, rays, count, any, &ready->postponed);
+    packet_start(p, tracer, rays, count, any, postponed);
     lane_mask scaled = (p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX);
     for (int k = 0; k < 3; k++) scaled |= lanes_abs(p->origin[k]) > ORIGIN_MAX;
     if (!lanes_any(scaled)) return;

@@ -56,38 +56,12 @@ struct line {
   lanes error;
 };
 
-/* Costs, in looks (MOST_LOOKS): meeting a leaf, whose boxes the ray passes; being tried on it, once the slab test in
- * doubles passes too (at most 65,536 leaves per ray); reaching the expensive stages, because the quadric left the leaf
- * open (at most 4,096 per ray); making a leaf that is not kept. LOOKS_OF_ALL multiplies the limit where hits are
- * gathered, which costs time itself. */
-enum { LOOKS_MET = 4, LOOKS_TRIED = 28, LOOKS_DEAR = 480, LOOKS_MADE = 32, LOOKS_OF_ALL = 4 };
-
-/* Further limits. Leaves left open: further ones are left open untried, for the last resort examines all leaves of a
- * patch together; where hits are gathered, the ray is given up with what is known by then. Splits of boxes that cover a
- * leaf: the last resort decides further leaves. Sweeps of methods that find all roots, each as expensive as the square
- * of the degree: boxes decide further leaves. */
-enum { MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
-enum { MOST_SWEEPS = 384 * 18 * 18, MOST_SWEEPS_OF_ALL = 4 * MOST_SWEEPS };
-
-/* The limits are halved this often, for a ray alone and for one in a packet. In a packet, the leaves that reach a ray,
- * and their order, depend on its neighbours; so would the point where its share of work ends. A ray that exceeds its
- * share there, an eighth, is let go, and asked again alone (intersect.c). */
-enum { SHARE_ALONE = 0, SHARE_IN_COMPANY = 3 };
-
-/* What the lanes leave open: a list for each lane. */
+/* What is left of the rays' budgets, and what the lanes leave open: a list for each lane, with one region a patch. */
 struct postponed {
-  int share; /* SHARE_ALONE or SHARE_IN_COMPANY */
-  int64_t most_looks;
-  unsigned most_open;
-  /* bit k is of lane k: it has a list; more than most_open leaves are open; each patch has one region; the ray gave
-   * up */
-  unsigned open, full, merged, let_go;
+  lane_mask left;           /* of the budget; below 0 it is exhausted */
+  unsigned open, exhausted; /* bit k is of lane k: it has a list; its budget did not suffice */
   unsigned count[LANES];
-  lanes cut_from;       /* nothing that begins at or behind this t is on the list; infinite: the list is complete */
-  lane_mask looks;      /* how many more a ray may take; below 0 it gives up */
-  unsigned left[LANES]; /* how many leaves were left open */
-  lanes splits;         /* how many more boxes may be split to cover leaves (cover.h) */
-  lanes sweeps;         /* how many more sweeps over all roots there may be */
+  lanes cut_from; /* nothing that begins at or behind this t is on the list; infinite: the list is complete */
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
@@ -160,43 +134,27 @@ struct ready {
   int exponent[LANES];
 };
 
-/* packet.c: loads up to LANES rays, none of which has hit anything yet, with that share of work. The packet borrows
+/* packet.c: loads up to LANES rays, none of which has hit anything yet, each with that budget. The packet borrows
  * *ready. */
 void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
-                  bool any, int share);
+                  bool any, int budget);
 
-/* As bits, the rays that were let go to be asked again alone; what they have left open need not be examined. */
-LANES_INLINE unsigned packet_let_go(const struct packet *p)
-{
-  return p->postponed->share > SHARE_ALONE ? p->postponed->let_go : 0;
-}
-
-/* As bits, the rays that have left more open than there is room for, or have given up. */
+/* As bits, the rays that have left more open than there is room for, or have exhausted their budgets. */
 LANES_INLINE unsigned packet_cut_off(const struct packet *p)
 {
-  return lanes_bits(p->postponed->cut_from < INFINITY) | p->postponed->let_go;
+  return lanes_bits(p->postponed->cut_from < INFINITY) | p->postponed->exhausted;
 }
 
-/* Gives rays that have been tried on nothing yet their share of these limits. */
-LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int looks, int open, int sweeps)
+/* What is left of that ray's budget, in boxes of the last resort. */
+static inline uint64_t packet_exact_limit(const struct packet *p, unsigned lane)
 {
-  postponed->share = share, postponed->most_looks = looks >> share, postponed->most_open = (unsigned)(open >> share);
-  postponed->looks = postponed->most_looks + (lane_mask){0};
-  postponed->splits = lanes_all(MOST_SPLITS >> share), postponed->sweeps = lanes_all(sweeps >> share);
+  const int64_t left = p->postponed->left[lane];
+  return left > 0 ? (uint64_t)left / COST_EXACT : 0;
 }
 
-/* Empties the lists, and gives the rays their full share. */
-LANES_INLINE void packet_set_ready(struct postponed *postponed, const struct tracer *tracer, int share)
-{
-  postponed->open = postponed->full = postponed->merged = postponed->let_go = 0,
-  postponed->cut_from = lanes_all(INFINITY);
-  for (int l = 0; l < LANES; l++) postponed->count[l] = postponed->left[l] = 0;
-  packet_set_share(postponed, share, tracer->most_looks, MOST_OPEN, MOST_SWEEPS);
-}
-
-/* Takes `looks` from what each ray has left. Returns what is left then. (A mask & a number is that number on the lanes
- * of the mask, and 0 on the others.) */
-LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks) { return p->postponed->looks -= looks; }
+/* Charges each ray that cost: (a mask & a number is that number on the lanes of the mask, and 0 on the others). The walk
+ * asks whether anything is left. */
+LANES_INLINE void packet_charge(const struct packet *p, lane_mask cost) { p->postponed->left -= cost; }
 
 /* The largest absolute value of the three. */
 LANES_INLINE lanes largest_of(const lanes x[3])
@@ -252,12 +210,8 @@ LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, 
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active);
 
-/* nearest.c: the rays on these lanes, as bits, give up. There is more than they know of. */
-void packet_give_up(struct packet *p, unsigned worn);
-
-/* nearest.c: in a packet, lets go the rays of `active` whose share of splits or sweeps has ended. Without these they
- * would not get what they get alone. To be called wherever some are taken. */
-void packet_spent(struct packet *p, lane_mask active);
+/* nearest.c: the rays on these lanes, as bits, go no further, because their budgets are exhausted. */
+void packet_exhaust(struct packet *p, unsigned exhausted);
 
 /* copy.c: sets up *inner, the rays of `outer` on the lanes of `active` in the coordinates of the copy's object. */
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner);

@@ -42,25 +42,6 @@ lanes slab_begin(const struct packet *p, const struct candidate *it)
                    p->t_min);
 }
 
-/* Two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With e as above, A is off by 2 e
- * and B by 4u, while |A| u <= e/4 and |B| <= 1. So the products are off by 8 e in all, and the right side by less. */
-lane_mask stage_box(const struct candidate *it, lane_mask open)
-{
-  const struct leaf_slab *slab = it->leaf->slab;
-  const struct line *line = it->line;
-  lanes a[3], b[3], size[3];
-  for (int q = 0; q < 3; q++) {
-    slab_values(line, it->axis, &slab[q], &a[q], &b[q]);
-    size[q] = lanes_abs(b[q]);
-  }
-  for (int q = 0; q < 3; q++) {
-    const int r = (q + 1) % 3;
-    open &= ~(lanes_abs(a[q] * b[r] - a[r] * b[q]) >
-              slab[q].half * size[r] + (slab[r].half * size[q] + 16 * line->error));
-  }
-  return open;
-}
-
 /* Lanes on which neither polynomial keeps one sign on its whole net. */
 static lane_mask planes_hull(struct candidate *it, lane_mask active)
 {

@@ -67,7 +67,7 @@ static void bundle_try(struct bundle *b, uint32_t index, struct leaf *leaf, cons
 __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t index, unsigned active)
 {
   struct leaf_room room;
-  for (int h = 0; h < b->packets; h++) (void)packet_spend(&b->packet[h], lanes_mask(active >> h * LANES) & LOOKS_MADE);
+  for (int h = 0; h < b->packets; h++) packet_charge(&b->packet[h], lanes_mask(active >> h * LANES) & COST_MADE);
   struct leaf_room *made = tracer_leaf(b->packet[0].tracer, index, &room);
   bundle_try(b, index, &made->leaf, &made->of.patch, active);
 }
@@ -296,13 +296,13 @@ static void bundle_walk_all(struct bundle *b, const struct model *model)
 LANES_INLINE size_t packets_of(size_t count) { return count < FLOAT_LANES ? (count - 1) / LANES + 1 : PACKETS; }
 
 LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], struct tracer *tracer, size_t count,
-                               const struct ray rays[], bool any, int share)
+                               const struct ray rays[], bool any, int budget)
 {
   const size_t packets = packets_of(count);
   b->packets = (int)packets, b->depth = 0;
   for (size_t h = 0; h < packets; h++) {
     const size_t left = count - h * LANES;
-    packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any, share);
+    packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any, budget);
   }
   bundle_set_later(b, any);
   bundle_start(b, &tracer->model->tree);
@@ -310,12 +310,12 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
 
 /* Returns the rays, as bits, whose answers are not settled. */
 LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[],
-                                     struct hit out_hits[], int share)
+                                     struct hit out_hits[], int budget)
 {
   unsigned unsettled = 0;
   struct ready ready[PACKETS];
   struct bundle bundle;
-  bundle_begin(&bundle, ready, tracer, count, rays, false, share);
+  bundle_begin(&bundle, ready, tracer, count, rays, false, budget);
   bundle_walk(&bundle, &tracer->model->tree, bundle.live);
   for (size_t h = 0; h < packets_of(count); h++) {
     struct packet *packet = &bundle.packet[h];
@@ -330,63 +330,61 @@ LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const 
   return unsettled;
 }
 
-/* Whatever the order, a ray that hits nothing visits all its boxes and leaves, and one that hits, or may hit, does so.
- * So each has the share of a ray alone, and that may end anywhere. But a ray given up after it was charged for what
- * others looked at is asked again alone. So is one that left so much open that regions were merged: whether there is
- * room for the rest depends on the order. */
-LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
+/* A ray that did not come to an end counts as hit. In company it is asked again alone. */
+LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[],
+                                  int budget)
 {
   struct ready ready[PACKETS];
   struct bundle bundle;
-  bundle_begin(&bundle, ready, tracer, count, rays, true, SHARE_ALONE);
+  bundle_begin(&bundle, ready, tracer, count, rays, true, budget);
   bundle_walk_all(&bundle, tracer->model);
-  bool let_go = false;
+  bool again = false;
   for (size_t h = 0; h < packets_of(count); h++) {
     const struct packet *packet = &bundle.packet[h];
-    const unsigned lists = packet_cut_off(packet) | (count > 1 ? ready[h].postponed.merged : 0);
-    const unsigned hit = finish_occluded(packet) | lists;
-    let_go |= lists != 0;
+    const unsigned hit = finish_occluded(packet);
+    again |= packet_cut_off(packet) != 0;
     for (size_t l = 0; l < packet->count; l++) out_occluded[h * LANES + l] = hit >> l & 1;
     tracer->counts.rays[1] += packet->count;
   }
-  return let_go;
+  return again;
 }
 
-LANES_INLINE int share_of(const struct tracer *tracer, size_t count)
+LANES_INLINE int budget_of(const struct tracer *tracer, size_t count)
 {
-  return tracer_asks_again(tracer, count) ? SHARE_IN_COMPANY : SHARE_ALONE;
+  return tracer_asks_again(tracer, count) ? tracer->budget >> BUDGET_IN_COMPANY : tracer->budget;
 }
 
 /* A single ray has a call of its own, so that it costs no loops over more. */
 static unsigned closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
-  if (count == 1) return bundle_closest(tracer, 1, rays, out_hits, SHARE_ALONE);
-  const int share = share_of(tracer, count);
+  const int budget = budget_of(tracer, count);
+  if (count == 1) return bundle_closest(tracer, 1, rays, out_hits, budget);
   unsigned unsettled = 0;
   for (size_t first = 0; first < count; first += FLOAT_LANES)
-    unsettled |= bundle_closest(tracer, count - first, rays + first, out_hits + first, share) << first;
+    unsettled |= bundle_closest(tracer, count - first, rays + first, out_hits + first, budget) << first;
   return unsettled;
 }
 
 static bool occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
-  if (count == 1) return bundle_occluded(tracer, 1, rays, out_occluded);
-  bool let_go = false;
+  if (count == 1) return bundle_occluded(tracer, 1, rays, out_occluded, tracer->budget);
+  bool again = false;
   for (size_t first = 0; first < count; first += FLOAT_LANES)
-    let_go |= bundle_occluded(tracer, count - first, rays + first, out_occluded + first);
-  return let_go;
+    again |= bundle_occluded(tracer, count - first, rays + first, out_occluded + first,
+                             tracer->budget >> BUDGET_IN_COMPANY);
+  return again;
 }
 
 /* Adds the lists' hits to tracer->hits, one list after the other. Where they are is known when all of them are
  * there. */
 static bool all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
 {
-  const int share = share_of(tracer, count);
+  const int budget = budget_of(tracer, count);
   bool done = true;
   for (size_t first = 0; first < count; first += FLOAT_LANES) {
     struct ready ready[PACKETS];
     struct bundle bundle;
-    bundle_begin(&bundle, ready, tracer, count - first, rays + first, false, share);
+    bundle_begin(&bundle, ready, tracer, count - first, rays + first, false, budget);
     for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
     bundle_walk_all(&bundle, tracer->model);
     for (size_t h = 0; h < (size_t)bundle.packets; h++) {
