@@ -201,7 +201,7 @@ static void solve(struct subject *s, const double start[2], struct leaf_root *ou
   local_ray_make(&s->model->patches[s->leaf->patch], &s->ray, &s->local);
   truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
-  packet_begin(&p, &ready, s->world.tracer, LANES, rays, false, SHARE_ALONE);
+  packet_begin(&p, &ready, s->world.tracer, LANES, rays, false, s->world.tracer->budget);
   packet_set_patch(&p, patch, s->leaf->patch);
   assert_int_equal(packet_axis(&p, 0), s->local.axis);
   const lanes at[2] = {lanes_all(start[0]), lanes_all(start[1])};
