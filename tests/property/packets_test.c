@@ -84,7 +84,7 @@ static void rays_apart_do_not_depend_on_companions(void **state)
  * are tried depends on their order; what is certain of the ray must not. */
 static void exhausted_rays_do_not_depend_on_companions(void **state)
 {
-  enum { HEAP = 20000, RAYS = 120, FEW = 3, BUDGET = 1 << 16 };
+  enum { HEAP = 20000, RAYS = 120, FEW = 3, BUDGET = 3 << 14 };
   struct random random = {SEED + 5};
   struct world world;
   struct method options;
