@@ -23,7 +23,7 @@ enum {
 
 /* The state of the final name before writing. */
 struct target {
-  char *path; /* with symbolic links resolved; owned */
+  char *path; /* with symbolic links resolved, unless the name itself is meant; owned */
   bool exists;
   bool replaceable; /* absent, or a regular file */
   mode_t mode;
@@ -43,23 +43,25 @@ static char *directory_of(const char *path)
   return directory;
 }
 
-/* Fills the target. Returns 0, or an errno value, and then nothing is owned. */
-static int target_find(const char *path, struct target *out)
+/* Fills the target. Unless links are followed, one is a name like that of a file. Returns 0, or an errno value, and
+ * then nothing is owned. */
+static int target_find(const char *path, bool follow, struct target *out)
 {
   struct stat info;
   *out = (struct target){.replaceable = true};
-  if (stat(path, &info) != 0) {
+  if ((follow ? stat : lstat)(path, &info) != 0) {
     if (errno != ENOENT || path[0] == '\0') return errno;
     if (lstat(path, &info) == 0) return ENOENT; /* a link to nothing: creating its target is not our business */
     out->path = strdup(path);
     return out->path == NULL ? ENOMEM : 0;
   }
   if (S_ISDIR(info.st_mode)) return EISDIR;
-  if (access(path, W_OK) != 0) return errno;
+  const bool link = S_ISLNK(info.st_mode);
+  if (!link && access(path, W_OK) != 0) return errno;
   out->exists = true;
-  out->replaceable = S_ISREG(info.st_mode);
-  out->mode = info.st_mode & 07777;
-  out->path = realpath(path, NULL);
+  out->replaceable = link || S_ISREG(info.st_mode);
+  out->mode = link ? 0600 : info.st_mode & 07777;
+  out->path = follow ? realpath(path, NULL) : strdup(path);
   return out->path == NULL ? errno : 0;
 }
 
@@ -81,9 +83,9 @@ static int unnamed_open(const struct target *target)
   return descriptor;
 }
 
-/* Makes a new name next to the target: of the file `same` or, if that is NULL, of a new file, with its descriptor in
- * *out_descriptor. Returns the name, owned by the caller, or NULL with errno set. */
-static char *temporary_name(const struct target *target, const char *same, int *out_descriptor)
+/* Makes a new name next to the target: of the file `same`, by linkat's flags, or, if that is NULL, of a new file, with
+ * its descriptor in *out_descriptor. Returns the name, owned by the caller, or NULL with errno set. */
+static char *temporary_name(const struct target *target, const char *same, int flags, int *out_descriptor)
 {
   char *name = directory_of(target->path);
   int reason = ENOMEM;
@@ -96,7 +98,7 @@ static char *temporary_name(const struct target *target, const char *same, int *
     char *end = name + (attempt == 0 ? strlen(name) : (size_t)(strrchr(name, '/') - name));
     snprintf(end, NAME_SPACE, "/.pscn-%016" PRIx64 ".tmp", number);
     const int made = same != NULL
-                       ? linkat(AT_FDCWD, same, AT_FDCWD, name, AT_SYMLINK_FOLLOW)
+                       ? linkat(AT_FDCWD, same, AT_FDCWD, name, flags)
                        : (*out_descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, first_mode(target)));
     if (made >= 0) return name;
     reason = errno;
@@ -173,7 +175,7 @@ static enum status stage_bytes(const struct atomic_file *file, const atomic_int 
 {
   const struct target *target = &out->target;
   out->descriptor = unnamed_open(target);
-  if (out->descriptor < 0 && errno == EOPNOTSUPP) out->fresh = temporary_name(target, NULL, &out->descriptor);
+  if (out->descriptor < 0 && errno == EOPNOTSUPP) out->fresh = temporary_name(target, NULL, 0, &out->descriptor);
   if (out->descriptor < 0) {
     *out_errno = errno;
     return STATUS_FILE;
@@ -186,9 +188,10 @@ static enum status stage_bytes(const struct atomic_file *file, const atomic_int 
   return STATUS_FILE;
 }
 
-static enum status stage(const struct atomic_file *file, const atomic_int *stop, struct staged *out, int *out_errno)
+static enum status stage(const struct atomic_file *file, bool follow, const atomic_int *stop, struct staged *out,
+                         int *out_errno)
 {
-  *out_errno = target_find(file->path, &out->target);
+  *out_errno = target_find(file->path, follow && file->bytes != NULL, &out->target);
   if (*out_errno != 0) return STATUS_FILE;
   return file->bytes != NULL && out->target.replaceable ? stage_bytes(file, stop, out, out_errno) : STATUS_OK;
 }
@@ -201,7 +204,7 @@ static bool replace(struct staged *staged)
     char self[NAME_SPACE];
     snprintf(self, sizeof self, "/proc/self/fd/%d", staged->descriptor);
     if (!target->exists && linkat(AT_FDCWD, self, AT_FDCWD, target->path, AT_SYMLINK_FOLLOW) == 0) return true;
-    staged->fresh = temporary_name(target, self, NULL);
+    staged->fresh = temporary_name(target, self, AT_SYMLINK_FOLLOW, NULL);
   }
   return staged->fresh != NULL && rename(staged->fresh, target->path) == 0;
 }
@@ -214,7 +217,7 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
   if (!target->replaceable)
     return file->bytes == NULL ? STATUS_OK : write_through(target, file->bytes, file->size, stop, out_errno);
   if (target->exists && !alone)
-    staged->old = temporary_name(target, target->path, NULL); /* a file system without links keeps none */
+    staged->old = temporary_name(target, target->path, 0, NULL); /* a file system without links keeps none */
   if (file->bytes != NULL) staged->placed = replace(staged);
   else staged->placed = !target->exists || unlink(target->path) == 0 || errno == ENOENT; /* it is gone already */
   if (staged->placed) return STATUS_OK;
@@ -223,15 +226,12 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
 }
 
 /* Leaves nothing but the final name: with the new state if all went well, otherwise with the old one. */
-static void settle(const struct atomic_file *file, struct staged *staged, bool well)
+static void settle(struct staged *staged, bool well)
 {
   const bool undo = !well && staged->placed;
-  char byte;
   if (staged->old != NULL) (void)(undo ? rename(staged->old, staged->target.path) : unlink(staged->old));
   else if (undo && !staged->target.exists) (void)unlink(staged->target.path);
   if (!staged->placed && staged->fresh != NULL) (void)unlink(staged->fresh);
-  /* A link to a file that is gone would still be a name, and one that cannot be written to. */
-  if (well && staged->placed && file->bytes == NULL && readlink(file->path, &byte, 1) >= 0) (void)unlink(file->path);
 }
 
 static void staged_free(struct staged *staged)
@@ -270,7 +270,7 @@ static int hindrance(const char *path)
 enum status atomic_file_probe(const char *path, int *out_errno)
 {
   struct target target;
-  *out_errno = target_find(path, &target);
+  *out_errno = target_find(path, true, &target);
   if (*out_errno == 0 && target.exists && target.replaceable) *out_errno = hindrance(target.path);
   if (*out_errno != 0) {
     free(target.path);
@@ -287,7 +287,7 @@ enum status atomic_file_probe(const char *path, int *out_errno)
   return *out_errno == 0 ? STATUS_OK : failure(*out_errno);
 }
 
-enum status atomic_files_write(const struct atomic_file *files, size_t count, const atomic_int *stop,
+static enum status write_files(const struct atomic_file *files, size_t count, bool follow, const atomic_int *stop,
                                size_t *out_failed, int *out_errno)
 {
   struct staged *staged = calloc(count + 1, sizeof *staged);
@@ -297,7 +297,7 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
   for (size_t k = 0; staged != NULL && k < count; k++) staged[k].descriptor = -1;
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     *out_failed = k;
-    status = stage(&files[k], stop, &staged[k], out_errno);
+    status = stage(&files[k], follow, stop, &staged[k], out_errno);
   }
   if (status == STATUS_OK && stop != NULL && atomic_load(stop) != 0) status = STATUS_INTERRUPTED;
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
@@ -305,11 +305,23 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
     status = place(&files[k], count == 1, stop, &staged[k], out_errno);
   }
   /* Other names are removed before waiting for the disk, so a process killed during that leaves none. */
-  for (size_t k = 0; staged != NULL && k < count; k++) settle(&files[k], &staged[k], status == STATUS_OK);
+  for (size_t k = 0; staged != NULL && k < count; k++) settle(&staged[k], status == STATUS_OK);
   for (size_t k = 0; staged != NULL && k < count; k++) {
     if (status == STATUS_OK && staged[k].placed) sync_directory(staged[k].target.path);
     staged_free(&staged[k]);
   }
   free(staged);
   return status == STATUS_FILE ? failure(*out_errno) : status;
+}
+
+enum status atomic_files_write(const struct atomic_file *files, size_t count, const atomic_int *stop,
+                               size_t *out_failed, int *out_errno)
+{
+  return write_files(files, count, true, stop, out_failed, out_errno);
+}
+
+enum status atomic_file_put(const struct atomic_file *file, int *out_errno)
+{
+  size_t failed;
+  return write_files(file, 1, false, NULL, &failed, out_errno);
 }

@@ -2,8 +2,8 @@
  *
  * The bytes go to a file without a name in the folder of the final one, are flushed to the disk, and only then named. A
  * process that is killed leaves nothing behind, except in the instant where it replaces an old file. Whatever fails,
- * the final name keeps what it had, and nothing else stays. A symbolic link is followed. A name that is a device or a
- * pipe is written to directly, since it cannot be replaced.
+ * the final name keeps what it had, and nothing else stays. A symbolic link is followed when a file is written, and
+ * never when one is removed. A name that is a device or a pipe is written to directly, since it cannot be replaced.
  *
  * All functions answer STATUS_FILE, or STATUS_LIMIT where memory is short, with the reason, an errno value, in
  * *out_errno (0 otherwise). Safe on any thread.
@@ -32,5 +32,8 @@ struct atomic_file {
  * new file gets the permissions that the process's mask gives; an old one keeps its own. */
 enum status atomic_files_write(const struct atomic_file *files, size_t count, const atomic_int *stop,
                                size_t *out_failed, int *out_errno) STATUS_MUST_CHECK;
+
+/* Writes one file, under this very name: a symbolic link there is replaced, and what it points to stays. */
+enum status atomic_file_put(const struct atomic_file *file, int *out_errno) STATUS_MUST_CHECK;
 
 #endif

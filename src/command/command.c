@@ -9,6 +9,8 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <unistd.h>
 
 #include "base/source.h"
 #include "command/interrupt.h"
@@ -166,6 +168,50 @@ char *command_line_text(int argc, const char **argv)
   return text;
 }
 
+/* ---- POV-Ray's options ---- */
+
+/* Each begins with + or -, its letters may be of either case, and its value follows them. Where one begins as another
+ * does, the longer stands first. */
+static const struct {
+  const char *letters, *here;
+} POVRAY[] = {
+  {"KFI", "--frames A-B renders the frames A to B"},
+  {"KFF", "--frames A-B renders the frames A to B"},
+  {"SC", "--crop X,Y,W,H renders a part"},
+  {"SR", "--crop X,Y,W,H renders a part"},
+  {"EC", "--crop X,Y,W,H renders a part"},
+  {"ER", "--crop X,Y,W,H renders a part"},
+  {"WT", "--threads N sets the number of threads"},
+  {"FN", "the suffix of -o FILE sets the format, .png or .exr, --bits the bits of a value"},
+  {"W", "--size WxH sets width and height"},
+  {"H", "--size WxH sets width and height"},
+  {"I", "the scene's name stands alone"},
+  {"O", "-o FILE names the picture"},
+  {"A", "--samples N takes N x N rays a pixel"},
+  {"R", "--samples N takes N x N rays a pixel"},
+  {"K", "--clock X sets the clock"},
+  {"L", "-I DIR names a folder of included files"},
+  {"C", "--resume goes on where an earlier run was ended"},
+  {"F", "the suffix of -o FILE sets the format, .png or .exr, --bits the bits of a value"},
+  {"D", "no picture is shown while it is rendered: leave it out"},
+  {"P", "no picture is shown while it is rendered: leave it out"},
+  {"V", "-q says nothing unless something is wrong"},
+  {"G", "-q says nothing unless something is wrong"},
+  {"Q", "a picture has one quality: leave it out"},
+  {"J", "the samples stand on a regular grid: leave it out"},
+};
+
+/* What to write instead of a word that is an option of POV-Ray's; NULL if it is none, or the command renders nothing. */
+static const char *povray_equal(const struct command *command, const char *word)
+{
+  if (command != &command_render || (word[0] != '+' && word[0] != '-')) return NULL;
+  for (const struct command_option *option = command->options; word[0] == '-' && option->name != NULL; option++)
+    if (option->letter != '\0' && option->letter == word[1]) return NULL;
+  for (size_t k = 0; k < sizeof POVRAY / sizeof *POVRAY; k++)
+    if (strncasecmp(word + 1, POVRAY[k].letters, strlen(POVRAY[k].letters)) == 0) return POVRAY[k].here;
+  return NULL;
+}
+
 /* ---- command lines ----
  *
  * They are read by libc's getopt_long, which needs no installation and no memory; popt silently dropped options when
@@ -201,11 +247,14 @@ static void make_tables(const struct command *command, struct getopt_tables *out
 static void unknown_option(const struct command *command, const char *word, const char *begun)
 {
   const size_t length = strcspn(word, "=");
+  const char *instead = povray_equal(command, word);
   const bool whole = word[1] == '-'; /* a word rather than letters */
   struct guess guess = guess_begin(word + 1 + whole, length - 1 - whole);
   for (const struct command_option *option = command->options; whole && option->name != NULL; option++)
     guess_consider(&guess, option->name, strlen(option->name));
-  if (begun == NULL && guess.best == NULL) command_usage(command, "option '%s': unknown option", word);
+  if (begun == NULL && guess.best == NULL && instead != NULL)
+    command_usage(command, "option '%s' is POV-Ray's; here %s", word, instead);
+  else if (begun == NULL && guess.best == NULL) command_usage(command, "option '%s': unknown option", word);
   else
     command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length, word,
                   begun == NULL ? guess.best : begun);
@@ -265,6 +314,8 @@ enum status command_line_read(const struct command *command, int argc, const cha
     found = getopt_long(argc, (char *const *)argv, tables.letters, tables.names, NULL);
     if (found == -1) break;
     if (found == OPERAND) {
+      const char *instead = optarg[0] == '+' && access(optarg, F_OK) != 0 ? povray_equal(command, optarg) : NULL;
+      if (instead != NULL) return command_usage(command, "option '%s' is POV-Ray's; here %s", optarg, instead);
       argv[out->positional_count++] = optarg; /* after those already read */
       continue;
     }
@@ -284,8 +335,9 @@ enum status command_line_read(const struct command *command, int argc, const cha
     argv[out->positional_count++] = argv[optind++];
   if (out->positional_count < count)
     return command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
-  if (out->positional_count > count && strstr(command->arguments, "...") == NULL)
-    return command_usage(command, "one argument too many: '%s'", out->positional[count]);
+  const size_t most = count + (strchr(command->arguments, '[') != NULL);
+  if (out->positional_count > most && strstr(command->arguments, "...") == NULL)
+    return command_usage(command, "one argument too many: '%s'", out->positional[most]);
   return STATUS_OK;
 }
 

@@ -91,7 +91,7 @@ struct command_line {
 typedef enum status command_option_handler(const struct command *command, void *context, int val, const char *argument);
 
 /* Returns STATUS_USAGE, after printing the error, if options are wrong or if the number of other arguments is not
- * `count`; more are allowed if the command's arguments end with "...". argv ends with NULL. */
+ * `count`; one more is allowed if the command's arguments name one in brackets, any number if they end with "...". argv ends with NULL. */
 enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
                               command_option_handler *handle, void *context,
                               struct command_line *out) STATUS_MUST_CHECK;

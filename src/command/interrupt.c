@@ -11,9 +11,15 @@ enum { EXIT_SIGNAL = 128 };
 atomic_int interrupt_signal;
 static atomic_bool deferred;
 
+/* The other signals may come in a row by themselves: SIGXCPU each second, SIGHUP from the shell and the terminal. */
+static bool is_said_again(int number)
+{
+  return atomic_load(&interrupt_signal) != 0 && (number == SIGINT || number == SIGTERM);
+}
+
 static void handle(int number)
 {
-  if (!atomic_load(&deferred)) _exit(EXIT_SIGNAL + number);
+  if (!atomic_load(&deferred) || is_said_again(number)) _exit(EXIT_SIGNAL + number);
   atomic_store(&interrupt_signal, number);
 }
 

@@ -1,11 +1,11 @@
 /* SIGINT, SIGTERM, SIGHUP and SIGXCPU end the process with exit code 128 + the signal's number (130, 143, 129, 152) and
  * leave nothing behind.
  *
- * A signal ends the process at once. Between interrupt_defer and interrupt_resume it only sets the flag
+ * A signal ends the process at once. Between interrupt_defer and interrupt_resume the first one only sets the flag
  * interrupt_signal, for code that has something to save first; the command then returns STATUS_INTERRUPTED, which main
- * turns into interrupt_exit_code(). There SIGPIPE (the reader has gone) is treated the same way; elsewhere it keeps its
- * default. A SIGHUP that is ignored at the start, as under nohup, stays ignored. SIGXFSZ is ignored, so that a file
- * that may grow no further is an error of writing.
+ * turns into interrupt_exit_code(). A second SIGINT or SIGTERM ends the process at once even there. SIGPIPE (the reader
+ * has gone) is treated there as the first one; elsewhere it keeps its default. A SIGHUP that is ignored at the start, as
+ * under nohup, stays ignored. SIGXFSZ is ignored, so that a file that may grow no further is an error of writing.
  */
 #ifndef PSCN_COMMAND_INTERRUPT_H
 #define PSCN_COMMAND_INTERRUPT_H

@@ -20,17 +20,17 @@ static void hold_streams(void)
     if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
 }
 
-/* "pscn scene.pscn" renders it. */
+/* "pscn scene.pscn" renders it; no command has such a name. */
 static bool is_scene(const char *name)
 {
-  const char *suffix = strrchr(name, '.');
-  return (suffix != NULL && strcmp(suffix, ".pscn") == 0) || strcmp(name, "-") == 0 || access(name, F_OK) == 0;
+  return strpbrk(name, "./") != NULL || strcmp(name, "-") == 0 || access(name, F_OK) == 0;
 }
 
-/* "pscn -o picture.png scene.pscn" as well, but not "pscn -q dump scene.pscn". */
+/* "pscn -o picture.png scene.pscn" as well, and "pscn +W320 +Iscene.pov" to be told better, but not "pscn -q dump
+ * scene.pscn". */
 static bool is_rendering(int argc, char **argv)
 {
-  bool scene = is_scene(argv[1]);
+  bool scene = is_scene(argv[1]) || argv[1][0] == '+';
   for (int k = 2; k < argc && argv[1][0] == '-'; k++) {
     if (command_find(argv[k]) != NULL) return false;
     scene |= is_scene(argv[k]);

@@ -128,24 +128,21 @@ static enum status create_picture(struct merge *merge)
 }
 
 /* The place of a piece's tile in the list of the whole picture (tile_list.h). */
-static atomic_bool *place_of(const struct merge *merge, const struct piece *piece, size_t tile)
-{
-  return &merge->picture.tiles.done[tile * piece->count + piece->number - 1];
-}
+static size_t place_of(const struct piece *piece, size_t tile) { return tile * piece->count + piece->number - 1; }
 
 /* Whether one of the piece's tiles is done already. */
 static bool has_twice(const struct merge *merge, const struct piece *piece)
 {
   bool twice = false;
   for (size_t t = 0; t < piece->tiles.count; t++)
-    twice |= atomic_load(&piece->tiles.done[t]) && atomic_load(place_of(merge, piece, t));
+    twice |= tile_is_done(&piece->tiles, t) && tile_is_done(&merge->picture.tiles, place_of(piece, t));
   return twice;
 }
 
 static void count_tiles(const struct merge *merge, const struct piece *piece)
 {
   for (size_t t = 0; t < piece->tiles.count; t++)
-    if (atomic_load(&piece->tiles.done[t])) atomic_store(place_of(merge, piece, t), true);
+    if (tile_is_done(&piece->tiles, t)) atomic_store(&merge->picture.tiles.rows[place_of(piece, t)], TILE_ROWS);
 }
 
 /* ---- pixels ---- */
@@ -166,7 +163,7 @@ static bool is_same(const struct piece *header, const struct piece *whole)
   bool same = header->number == whole->number && header->count == whole->count &&
               piece_compare(&whole->image, &header->image, message, sizeof message) == 0;
   for (size_t t = 0; t < header->tiles.count && same; t++)
-    same = atomic_load(&header->tiles.done[t]) == atomic_load(&whole->tiles.done[t]);
+    same = atomic_load(&header->tiles.rows[t]) == atomic_load(&whole->tiles.rows[t]);
   return same;
 }
 
@@ -198,18 +195,23 @@ static bool is_missing(const void *context, size_t number)
   const struct merge *merge = context;
   const struct tile_list *tiles = &merge->picture.tiles;
   for (size_t k = number - 1; k < tiles->count; k += merge->first->piece.count)
-    if (!atomic_load(&tiles->done[k])) return true;
+    if (!tile_is_done(tiles, k)) return true;
   return false;
 }
 
-/* Prints the numbers of the pieces that are missing, if any, as Slurm's sbatch --array takes them: "2,5-7". */
+/* Prints the numbers of the pieces that are missing, if any, as Slurm's sbatch --array takes them: "2,5-7". Says so in
+ * words, too. */
 static enum status print_missing(const struct merge *merge, bool *out_any)
 {
   struct text_buffer text = {0};
   text_buffer_add_runs(&text, 1, merge->first->piece.count + 1, is_missing, merge);
   *out_any = text.length > 0;
   const enum status status = text.failed ? command_out_of_memory(merge->command) : STATUS_OK;
-  if (status == STATUS_OK && *out_any) puts(text.text);
+  if (status == STATUS_OK && *out_any) {
+    puts(text.text);
+    command_error(merge->command, "of %zu pieces these are missing or not complete: %s; no picture is written",
+                  merge->first->piece.count, text.text);
+  }
   text_buffer_free(&text);
   return status;
 }
@@ -273,6 +275,7 @@ static enum status put_together(struct merge *merge)
   status = print_missing(merge, &missing);
   if (status != STATUS_OK) return status;
   if (missing || merge->strange) {
+    if (!missing) command_error(merge->command, "no picture is written");
     status = command_finish_output(merge->command);
     return status == STATUS_OK ? STATUS_DIFFERENT : status;
   }

@@ -102,18 +102,28 @@ void piece_destroy(struct piece *piece)
   *piece = (struct piece){0};
 }
 
-/* Reads "0-17,19", the inverse of done_text, so that the numbers ascend. Returns false if it is no such list. */
+/* Reads "0-17,19,18:3", the inverse of done_text, in which the numbers ascend, and again those of tiles that are begun.
+ * Returns false if it is no such list. */
 static bool read_done(const char *text, size_t length, const struct tile_list *tiles)
 {
   const char *end = text + length;
+  bool begun = false;
   for (size_t next = 0; text < end;) {
-    size_t first, last;
+    size_t first, last, rows = TILE_ROWS;
     if (!value_digits(&text, end, tiles->count, &first)) return false;
     last = first;
-    if (value_sign(&text, end, '-') && !value_digits(&text, end, tiles->count, &last)) return false;
+    if (value_sign(&text, end, ':')) {
+      if (!value_digits(&text, end, TILE_ROWS - 1, &rows)) return false;
+      if (!begun) begun = true, next = 0;
+    } else if (begun || (value_sign(&text, end, '-') && !value_digits(&text, end, tiles->count, &last))) {
+      return false;
+    }
     const bool more = value_sign(&text, end, ',');
     if (first < next || last < first || last >= tiles->count || more != (text < end)) return false;
-    for (size_t k = first; k <= last; k++) atomic_store(&tiles->done[k], true);
+    for (size_t k = first; k <= last; k++) {
+      if (atomic_load(&tiles->rows[k]) != 0) return false;
+      atomic_store(&tiles->rows[k], (unsigned char)rows);
+    }
     next = last + 1;
   }
   return true;
@@ -197,14 +207,16 @@ static int by_row(const void *a, const void *b)
   return p->y != q->y ? (p->y > q->y) - (p->y < q->y) : (p->x > q->x) - (p->x < q->x);
 }
 
-/* The tiles that are done, by rows. The caller frees them; NULL if memory is short. */
+/* What is done of the tiles, by rows. The caller frees it; NULL if memory is short. */
 static struct rectangle *tiles_by_row(const struct tile_list *tiles, size_t *out_count)
 {
   struct rectangle *sorted = malloc((tiles->count + 1) * sizeof *sorted);
   *out_count = 0;
   if (sorted == NULL) return NULL;
-  for (size_t k = 0; k < tiles->count; k++)
-    if (atomic_load(&tiles->done[k])) sorted[(*out_count)++] = tiles->tile[k];
+  for (size_t k = 0; k < tiles->count; k++) {
+    sorted[*out_count] = tile_top(tiles, k, atomic_load(&tiles->rows[k]));
+    *out_count += sorted[*out_count].height > 0;
+  }
   qsort(sorted, *out_count, sizeof *sorted, by_row);
   return sorted;
 }
@@ -228,8 +240,9 @@ static uint64_t hash_channel(const struct image *image, size_t channel, const st
   size_t next = 0; /* pixel */
   for (size_t begin = 0, end = 0; begin < count; begin = end) {
     while (end < count && tile[end].y == tile[begin].y) end++;
-    for (size_t y = 0; y < tile[begin].height; y++) {
+    for (size_t y = 0; y < TILE_SIZE; y++) {
       for (size_t k = begin; k < end; k++) {
+        if (y >= tile[k].height) continue;
         const size_t first = (tile[k].y - image->y + y) * image->width + tile[k].x - image->x;
         hash = hash_add_pixels(hash_add_zeros(hash, first - next), image, channel, first, tile[k].width);
         next = first + tile[k].width;
@@ -313,7 +326,7 @@ int piece_compare(const struct image *part, const struct image *picture, char *o
   return 0;
 }
 
-/* Copies the values of one tile. channel[c] is the channel of `from` for channel c of `to`. */
+/* Copies the values of a tile's part. channel[c] is the channel of `from` for channel c of `to`. */
 static void copy_tile(const struct image *from, const struct rectangle *tile, const size_t *channel, struct image *to)
 {
   for (size_t y = tile->y - to->y; y < tile->y - to->y + tile->height; y++) {
@@ -331,30 +344,34 @@ bool piece_copy(const struct piece *from, struct image *to)
     channel[c] = image_find_channel(&from->image, to->channel[c].name);
     if (channel[c] == from->image.channel_count) return false;
   }
-  for (size_t k = 0; k < from->tiles.count; k++)
-    if (atomic_load(&from->tiles.done[k])) copy_tile(&from->image, &from->tiles.tile[k], channel, to);
+  for (size_t k = 0; k < from->tiles.count; k++) {
+    const struct rectangle part = tile_top(&from->tiles, k, atomic_load(&from->tiles.rows[k]));
+    copy_tile(&from->image, &part, channel, to);
+  }
   return true;
 }
 
-static bool is_done(const void *tiles, size_t number)
-{
-  return atomic_load(&((const struct tile_list *)tiles)->done[number]);
-}
+static bool is_done(const void *tiles, size_t number) { return tile_is_done(tiles, number); }
 
-/* The tiles that a part has, as indices in its list: "0-17,19". The caller frees it; NULL if memory is short. */
+/* The tiles that a part has, as indices in its list, and then those of which it has the first rows: "0-17,19,18:3". The
+ * caller frees it; NULL if memory is short. */
 static char *done_text(const struct tile_list *tiles)
 {
   struct text_buffer text = {0};
   text_buffer_add_runs(&text, 0, tiles->count, is_done, tiles);
+  for (size_t k = 0; k < tiles->count; k++) {
+    const unsigned rows = atomic_load(&tiles->rows[k]);
+    if (rows > 0 && rows < TILE_ROWS) text_buffer_format(&text, "%s%zu:%u", text.length > 0 ? "," : "", k, rows);
+  }
   return text_buffer_take(&text);
 }
 
-/* Copies the tiles that are done, and no others, because those are still being written. */
+/* Copies what is done, and nothing else, because the rest is still being written. */
 static enum status copy_done(const struct piece *piece, struct piece *out)
 {
   const enum status status = piece_create_like(piece, piece->number, piece->count, out);
   if (status != STATUS_OK) return status;
-  for (size_t k = 0; k < out->tiles.count; k++) atomic_store(&out->tiles.done[k], atomic_load(&piece->tiles.done[k]));
+  for (size_t k = 0; k < out->tiles.count; k++) atomic_store(&out->tiles.rows[k], atomic_load(&piece->tiles.rows[k]));
   const struct piece done = {.image = piece->image, .tiles = out->tiles};
   (void)piece_copy(&done, &out->image); /* it has the channels */
   return STATUS_OK;

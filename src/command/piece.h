@@ -21,7 +21,7 @@ struct piece {
   struct image image;
   size_t number, count;
   struct channel_list channels;
-  struct tile_list tiles; /* those of this piece; done: those that the image has */
+  struct tile_list tiles; /* those of this piece; rows: what the image has of them */
 };
 
 /* Reads "K/N", 1 <= K <= N. */
@@ -46,12 +46,12 @@ enum status piece_read(const char *path, bool pixels, struct piece *out, char *m
  * order of pictures. */
 int piece_compare(const struct image *part, const struct image *picture, char *out, size_t size);
 
-/* Copies the tiles that `from` has into `to`, whose window is the same. Channels are matched by name; returns false if
+/* Copies what `from` has of its tiles into `to`, whose window is the same. Channels are matched by name; returns false if
  * one is missing. */
 bool piece_copy(const struct piece *from, struct image *to);
 
-/* Encodes a part: the finished tiles of the piece, described by the attributes. The caller frees the bytes. May be
- * called while other tiles are being rendered: it has those that were done when it began. */
+/* Encodes a part: what is done of the piece, described by the attributes. The caller frees the bytes. May be called
+ * while the rest is being rendered: it has what was done when it began. */
 enum status piece_encode(const struct piece *piece, const struct image_attribute *attributes, size_t attribute_count,
                          unsigned char **out_bytes, size_t *out_size, char *message) STATUS_MUST_CHECK;
 

@@ -148,12 +148,17 @@ static enum status complete(const struct command *command, struct request *reque
 }
 
 /* A picture may be writable where its part is not, because the part's name is longer. The part is then omitted, unless
- * --resume asks for it. */
+ * --resume asks for it. A link of its name, which somebody else may have made, is not followed. */
 static enum status check_part(const struct command *command, struct rendering_request *picture)
 {
   int reason;
   struct stat state;
   if (picture->part == NULL) return STATUS_OK;
+  if (lstat(picture->part, &state) == 0 && S_ISLNK(state.st_mode)) {
+    command_error(command, "'%s', where what is done is kept, is a link; remove it, or name the picture otherwise",
+                  picture->part);
+    return STATUS_FILE;
+  }
   if (picture->resume) return output_probe(command, picture->part);
   const enum status status = atomic_file_probe(picture->part, &reason);
   /* opening a pipe waits for a reader, and what a device gets is lost */

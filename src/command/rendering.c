@@ -38,6 +38,7 @@ struct rendering {
   bool has_part; /* there is a file of what is done */
   bool has_old;  /* an earlier run's file, from which we do not continue */
   size_t left;   /* pixels of this picture in the earlier run's file, from which we do not continue */
+  bool warned;   /* of a scene of which nothing will be visible */
 };
 
 /* Writes what is done into its file. Returns whether that worked; prints the error if not. */
@@ -46,13 +47,13 @@ static bool keep(struct rendering *rendering)
   struct report_metadata metadata;
   char message[IMAGE_MESSAGE_SIZE];
   unsigned char *bytes;
-  size_t size, which;
+  size_t size;
   int reason = 0;
   report_metadata_fill(rendering->report, &metadata);
   enum status status = piece_encode(&rendering->piece, metadata.attribute, metadata.count, &bytes, &size, message);
   if (status == STATUS_OK) {
     const struct atomic_file file = {rendering->request->part, bytes, size};
-    status = atomic_files_write(&file, 1, NULL, &which, &reason);
+    status = atomic_file_put(&file, &reason);
     snprintf(message, sizeof message, "%s", strerror(reason));
   }
   free(bytes);
@@ -132,8 +133,36 @@ static bool take_part(struct rendering *rendering, const struct piece *part, cha
   if (!is_part(piece, part, message, size)) return false;
   snprintf(message, size, "it lacks a channel");
   if (!piece_copy(part, &piece->image)) return false;
-  for (size_t k = 0; k < part->tiles.count; k++) atomic_store(&piece->tiles.done[k], atomic_load(&part->tiles.done[k]));
+  for (size_t k = 0; k < part->tiles.count; k++) atomic_store(&piece->tiles.rows[k], atomic_load(&part->tiles.rows[k]));
   return true;
+}
+
+/* Refuses a file of the part's name that is no part of this scene, which is the one with this text or this name: what is
+ * done would replace it, and the picture remove it. */
+static enum status check_old(const struct rendering *rendering, const char *path)
+{
+  struct piece part;
+  char message[IMAGE_MESSAGE_SIZE];
+  size_t length = 0, hash_length = 0;
+  const char *scene = rendering->report->scene_path, *hash = rendering->report->scene->text_hash;
+  enum status status = piece_read(path, false, &part, message);
+  if (status == STATUS_OK) {
+    const char *name = image_metadata(&part.image, "pscn:scene", &length);
+    const char *text = image_metadata(&part.image, "pscn:text", &hash_length);
+    const bool same_name = length == strlen(scene) && memcmp(name, scene, length) == 0 && !output_is_standard(scene);
+    const bool same_text = hash_length == strlen(hash) && memcmp(text, hash, hash_length) == 0;
+    if (!same_name && !same_text) {
+      snprintf(message, sizeof message, "it is of the scene '%.*s'", (int)length, name == NULL ? "" : name);
+      status = STATUS_INPUT;
+    }
+    piece_destroy(&part);
+  }
+  if (status == STATUS_OK) return STATUS_OK;
+  command_error(rendering->command,
+                "'%s', where what is done is kept, is no part of this scene: %s; remove it, or name the picture "
+                "otherwise",
+                path, message);
+  return status == STATUS_LIMIT ? status : STATUS_FILE;
 }
 
 /* Continues from what an earlier run has left, or warns that it is there. */
@@ -144,6 +173,8 @@ static enum status resume(struct rendering *rendering)
   struct piece part;
   char message[IMAGE_MESSAGE_SIZE];
   if (path == NULL || access(path, F_OK) != 0) return STATUS_OK;
+  enum status status = check_old(rendering, path);
+  if (status != STATUS_OK) return status;
   if (!rendering->request->resume) {
     bool useless;
     rendering->left = pixels_left(rendering, path, &useless);
@@ -155,7 +186,7 @@ static enum status resume(struct rendering *rendering)
                                           : ", of another picture, which this one replaces");
     return STATUS_OK;
   }
-  const enum status status = piece_read(path, true, &part, message);
+  status = piece_read(path, true, &part, message);
   if (status != STATUS_OK) {
     command_error(command, "cannot go on from '%s'%s: %s", path,
                   status == STATUS_LIMIT ? "" : " (without --resume it begins anew)", message);
@@ -208,6 +239,18 @@ static enum status loaded(const struct command *command, struct image_loading *l
   return status;
 }
 
+/* Warns of a picture without anything to be seen. Of a continued one, and of a piece, that is not known. */
+static void warn_of_nothing(const struct rendering *rendering, const struct render_stats *stats)
+{
+  if (rendering->request->scene->quiet || rendering->warned || rendering->request->resume ||
+      rendering->request->pieces != 0)
+    return;
+  if (!stats->seen)
+    command_warning(rendering->command, "no ray hits a patch: the camera looks past them, or they are too small");
+  else if (!stats->lit)
+    command_warning(rendering->command, "all patches are black: no light reaches them, or they have no pigment");
+}
+
 /* Renders the tiles that are not done. Stops early if the picture could not be written. */
 static enum status make_picture(struct rendering *rendering, struct image_loading *loading)
 {
@@ -232,6 +275,7 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
     if (atomic_load(&interrupt_signal) != 0) status = STATUS_INTERRUPTED;
     report->counts = stats.counts;
     report->threads = stats.threads;
+    if (status == STATUS_OK) warn_of_nothing(rendering, &stats);
   }
   if (status == STATUS_LIMIT) command_error(rendering->command, "out of memory or threads");
   else if (atomic_load(&interrupt_signal) == 0) status = loaded(rendering->command, loading);
@@ -301,7 +345,7 @@ static enum status render(const struct command *command, const struct rendering_
   struct scene *scene = NULL;
   const struct seconds start = now(loading);
   enum status status = scene_file_load(command, request->scene, &scene);
-  if (status == STATUS_OK && !request->scene->quiet) scene_file_warn(command, scene);
+  const bool warned = status == STATUS_OK && !request->scene->quiet && scene_file_warn(command, scene);
   struct report report = {.scene_path = request->scene->path,
                           .picture_path = request->output,
                           .scene = scene,
@@ -312,7 +356,7 @@ static enum status render(const struct command *command, const struct rendering_
                           .options = request->how,
                           .samples = request->options.samples,
                           .parse = since(start, loading)};
-  struct rendering rendering = {.command = command, .request = request, .report = &report};
+  struct rendering rendering = {.command = command, .request = request, .report = &report, .warned = warned};
   if (status == STATUS_OK) status = rendering_check_outputs(command, request, scene);
   if (status == STATUS_OK) status = begin(&rendering);
   if (status == STATUS_OK) status = make_picture(&rendering, loading);

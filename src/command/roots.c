@@ -1,4 +1,4 @@
-/* pscn roots: polynomials on stdin, roots on stdout. */
+/* pscn roots: polynomials from a file or stdin, roots on stdout. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON, FORMAT_ITERATES };
 struct request {
   struct scene_request scene; /* only its solver and tolerance */
   enum format format;
-  const char *stats;
+  const char *path, *stats; /* path NULL: standard input */
   bool iterates, quiet;
 };
 
@@ -62,10 +62,12 @@ static enum status take_option(const struct command *command, void *context, int
 }
 
 struct session {
+  const char *name; /* of the input */
   enum format format;
   struct method method;
   struct solver_warm warm;
   struct solver_watch watch;
+  size_t line; /* of the polynomial that is being solved */
   size_t polynomials, roots, iterations, accurate, missing;
   size_t doubtful; /* lines printed in plain format with unknown roots */
   size_t statuses[ROOT_CLUSTER + 1];
@@ -112,6 +114,7 @@ static int by_place(const void *a, const void *b)
 /* One polynomial's answer. */
 struct answer {
   size_t line;
+  bool first;              /* of all */
   struct polynomial power; /* as it was written */
   struct root_set roots;
 };
@@ -154,7 +157,7 @@ static double radius_told(double radius)
 /* A row for each root, and one for the missing roots. */
 static void write_table(const struct answer *answer)
 {
-  if (answer->line == 1)
+  if (answer->first)
     printf("%6s %24s %24s %10s %-9s %10s %10s\n", "line", "re", "im", "radius", "status", "iterations", "eq11");
   for (int k = 0; k < answer->roots.count; k++) {
     const struct root *root = &answer->roots.root[k];
@@ -205,7 +208,7 @@ static void write_iterate(void *context, int root, int step, double re, double i
   char real[NUMBER_TEXT_SIZE], imaginary[NUMBER_TEXT_SIZE];
   number_write_17(re, real);
   number_write_17(im, imaginary);
-  printf("%6zu %6d %6d %24s %24s\n", session->polynomials, step, root, real, imaginary);
+  printf("%6zu %6d %6d %24s %24s\n", session->line, step, root, real, imaginary);
 }
 
 /* The plain format cannot show what is unknown about a line's roots, so it is printed to stderr. */
@@ -217,12 +220,16 @@ static void tell_unknown(struct session *session, const struct answer *answer)
   session->doubtful++;
   if (session->doubtful > MOST_TOLD) return;
   fflush(stdout);
-  if (unknown > 0)
-    fprintf(stderr, "stdin:%zu: error: of %d of the values printed it is not known how near they are to a root\n",
+  if (unknown > 0) {
+    command_print(stderr, session->name);
+    fprintf(stderr, ":%zu: error: of %d of the values printed it is not known how near they are to a root\n",
             answer->line, unknown);
-  if (answer->roots.missing > 0)
-    fprintf(stderr, "stdin:%zu: error: %d of the roots missing: not found, or not told from infinity\n", answer->line,
+  }
+  if (answer->roots.missing > 0) {
+    command_print(stderr, session->name);
+    fprintf(stderr, ":%zu: error: %d of the roots missing: not found, or not told from infinity\n", answer->line,
             answer->roots.missing);
+  }
 }
 
 /* ---- a polynomial ---- */
@@ -296,7 +303,9 @@ static struct stream_fault take(void *context, const struct stream_line *line)
   int degree = 0;
   const struct stream_fault fault = parse_line(line, c, &degree);
   if (fault.text != NULL) return fault;
-  struct answer answer = {.line = ++session->polynomials, .power = {degree, BASIS_POWER, c, NULL}};
+  session->line = line->number;
+  struct answer answer = {
+    .line = line->number, .first = ++session->polynomials == 1, .power = {degree, BASIS_POWER, c, NULL}};
   solve(session, &answer);
   count_roots(session, &answer);
   qsort(answer.roots.root, (size_t)answer.roots.count, sizeof answer.roots.root[0], by_place);
@@ -357,11 +366,13 @@ static void begin_iterates(struct session *session)
 static enum status roots(const struct command *command, const struct request *request)
 {
   const bool summary = !request->quiet && isatty(STDERR_FILENO) == 1;
-  struct session session = {.format = request->format, .judged = summary || request->stats != NULL};
-  const struct stream_reader reader = {.take = take, .answer = answered, .context = &session};
+  struct session session = {
+    .name = stream_name(request->path), .format = request->format, .judged = summary || request->stats != NULL};
+  const struct stream_reader reader = {.take = take, .answer = answered, .context = &session, .path = request->path};
   if (request->iterates && request->format != FORMAT_PLAIN)
     return command_usage(command, "--iterates has a format of its own");
-  enum status status = output_spare_input(command, request->stats, "/dev/stdin");
+  const char *input = request->path == NULL || output_is_standard(request->path) ? "/dev/stdin" : request->path;
+  enum status status = output_spare_input(command, request->stats, input);
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   if (status == STATUS_OK) status = choose_solver(command, request, &session.method);
   if (status == STATUS_OK && request->iterates) begin_iterates(&session);
@@ -382,6 +393,7 @@ static enum status run(const struct command *command, int argc, const char **arg
   if (status == STATUS_OK && !line.help) {
     static char buffer[OUTPUT_BUFFER];
     (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+    request.path = line.positional_count == 0 ? NULL : line.positional[0];
     status = roots(command, &request);
   }
   return status;
@@ -389,12 +401,14 @@ static enum status run(const struct command *command, int argc, const char **arg
 
 const struct command command_roots = {
   .name = "roots",
-  .arguments = "",
+  .arguments = "[FILE]",
   .summary = "Reads polynomials and answers their roots",
   .description =
-    "Standard input has one polynomial a line: its coefficients from the highest power to the constant, of degree 1\n"
-    "to 64. Standard output has one line for each, in order: 're im' pairs, sorted by real part. Multiple roots are\n"
-    "there as often as they count. A bad line ends the run with its number, after the answers to the lines before it.\n"
+    "FILE, or standard input, has one polynomial a line: its real coefficients from the highest power to the\n"
+    "constant, with blanks or commas between them, of degree 1 to 64; # begins a comment. Standard output has one "
+    "line\n"
+    "for each, in order: 're im' pairs, sorted by real part. Multiple roots are there as often as they count. A bad\n"
+    "line ends the run with its number, after the answers to the lines before it.\n"
     "Where a value is not known to be near a root, or a root is missing, standard error says so; exit code 1. Other\n"
     "formats than plain say so themselves.\n"
     "\n"

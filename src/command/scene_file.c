@@ -35,6 +35,7 @@ static enum status take_number(const struct command *command, struct scene_reque
   if (argument[length] == '\0' || number_read(value, strlen(value), &number.value, &used) != NUMBER_FINITE ||
       value[used] != '\0')
     return command_usage(command, "'%s' is no NAME=NUMBER", argument);
+  if (!number_in_range(&number.value)) return command_usage(command, "'%s': the number is larger than 1e100", argument);
   if (!language_is_name(argument, length))
     return command_usage(command, "'%.*s' is no name that can be declared", (int)length, argument);
   if (request->number_count == SCENE_MOST_NUMBERS)
@@ -144,12 +145,13 @@ char *scene_request_text(const struct scene_request *request)
   return text_buffer_take(&text);
 }
 
-void scene_file_warn(const struct command *command, const struct scene *scene)
+bool scene_file_warn(const struct command *command, const struct scene *scene)
 {
   const bool missing[] = {scene->patch_count == 0, scene->light_count == 0, !scene->has_camera};
   static const char *const what[] = {"no patches", "no light_source", "no camera"};
   for (size_t k = 0; k < sizeof missing / sizeof *missing; k++)
     if (missing[k]) command_warning(command, "the scene has %s", what[k]);
+  return missing[0] || missing[1] || missing[2];
 }
 
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,

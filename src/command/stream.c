@@ -1,4 +1,4 @@
-/* Standard input read by lines or records. */
+/* Input read by lines or records. */
 #include "command/stream.h"
 
 #include <errno.h>
@@ -6,24 +6,27 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/input.h"
 #include "base/number.h"
+#include "command/output.h"
 #include "command/scene_file.h"
-
-/* The name of standard input in diagnostics. */
-#define NAME "stdin"
 
 enum {
   BUFFER_SIZE = 1 << 16,
   MAX_LINE = 1 << 20 /* bytes */
 };
 
-/* Standard input, from its first byte. */
+/* The input, from its first byte. */
 struct stream {
+  const char *name;
+  int file;
   bool ended;
   char *buffer;
   size_t size, begin, end; /* of the buffer, and of its unread bytes */
   size_t count;            /* lines or records read */
 };
+
+const char *stream_name(const char *path) { return path == NULL || output_is_standard(path) ? "stdin" : path; }
 
 /* Reads more bytes, after the unread ones; waits for them. */
 static enum status refill(const struct command *command, struct stream *stream)
@@ -38,10 +41,11 @@ static enum status refill(const struct command *command, struct stream *stream)
     stream->size *= 2;
   }
   ssize_t length;
-  do length = read(STDIN_FILENO, stream->buffer + stream->end, stream->size - stream->end);
+  do length = read(stream->file, stream->buffer + stream->end, stream->size - stream->end);
   while (length < 0 && errno == EINTR);
   if (length < 0) {
-    command_error(command, "cannot read standard input: %s", strerror(errno));
+    command_error(command, "cannot read %s: %s", stream->file == STDIN_FILENO ? "standard input" : stream->name,
+                  input_reason(errno));
     return STATUS_FILE;
   }
   stream->ended = length == 0;
@@ -55,6 +59,7 @@ static bool find_line(const struct stream *stream, size_t record, struct stream_
 {
   const char *line = stream->buffer + stream->begin;
   const size_t left = stream->end - stream->begin;
+  out->number = stream->count + 1;
   if (record != 0) {
     out->text = line;
     out->length = out->bytes = left < record ? left : record;
@@ -71,17 +76,32 @@ static bool find_line(const struct stream *stream, size_t record, struct stream_
 
 static bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
+/* Cuts off the comment. Returns whether anything is left. */
+static bool has_words(struct stream_line *line)
+{
+  const char *comment = memchr(line->text, '#', line->length);
+  if (comment != NULL) line->length = (size_t)(comment - line->text);
+  for (size_t k = 0; k < line->length; k++)
+    if (!is_blank(line->text[k])) return true;
+  return false;
+}
+
 int stream_number(const struct stream_line *line, size_t *at, double *out_value, size_t *out_end,
                   struct stream_fault *out_fault)
 {
-  while (*at < line->length && is_blank(line->text[*at])) ++*at;
+  const bool first = *at == 0;
+  bool comma = false;
+  for (; *at < line->length && (is_blank(line->text[*at]) || (line->text[*at] == ',' && !first && !comma)); ++*at)
+    comma |= line->text[*at] == ',';
   size_t end = *at, used;
-  while (end < line->length && !is_blank(line->text[end])) end++;
+  while (end < line->length && !is_blank(line->text[end]) && line->text[end] != ',') end++;
   *out_end = end;
-  *out_fault = (struct stream_fault){NULL, *at, *out_end};
-  if (*at == line->length) return 0;
+  *out_fault = (struct stream_fault){NULL, *at, end};
+  if (*at == line->length && !comma) return 0;
   const enum number_kind kind = number_read(line->text + *at, end - *at, out_value, &used);
-  if (kind == NUMBER_NONE || (kind == NUMBER_FINITE && *at + used != end)) out_fault->text = "this is no number";
+  if (end == *at) out_fault->text = "a number is missing here: a comma stands between two";
+  else if (kind == NUMBER_NONE || (kind == NUMBER_FINITE && *at + used != end))
+    out_fault->text = "this is no number: a line has real numbers such as -2.5e3, with blanks or commas between them";
   else if (kind == NUMBER_OVERFLOW) out_fault->text = "the number is too large";
   else return 1;
   return -1;
@@ -93,11 +113,11 @@ static enum status explain(const struct command *command, const struct stream *s
 {
   struct diagnostics diagnostics = stderr_diagnostics(command);
   if (record != 0) {
-    diagnostics_error(&diagnostics, (struct place){NULL, 0, 0}, "%s, record %zu: %s", NAME, stream->count + 1,
+    diagnostics_error(&diagnostics, (struct place){NULL, 0, 0}, "%s, record %zu: %s", stream->name, line->number,
                       fault.text);
     return STATUS_INPUT;
   }
-  struct source *source = source_from_text(NAME, line->text, line->length > MAX_LINE ? 1 : line->length);
+  struct source *source = source_from_text(stream->name, line->text, line->length > MAX_LINE ? 1 : line->bytes);
   if (source == NULL) return STATUS_LIMIT;
   source->lines_before = stream->count;
   const struct place place = {source, fault.begin, fault.end};
@@ -113,27 +133,54 @@ static enum status write_answers(const struct command *command, const struct str
   return status == STATUS_OK ? written : status;
 }
 
-enum status stream_read(const struct command *command, const struct stream_reader *reader)
+/* Passes over a byte order mark. */
+static enum status skip_mark(const struct command *command, struct stream *stream)
 {
-  struct stream stream = {.size = BUFFER_SIZE, .buffer = malloc(BUFFER_SIZE)};
+  static const char mark[] = {'\xef', '\xbb', '\xbf'};
+  enum status status = STATUS_OK;
+  while (status == STATUS_OK && !stream->ended && stream->end < sizeof mark &&
+         memcmp(stream->buffer, mark, stream->end) == 0)
+    status = refill(command, stream);
+  if (stream->end >= sizeof mark && memcmp(stream->buffer, mark, sizeof mark) == 0) stream->begin = sizeof mark;
+  return status;
+}
+
+/* Reads lines or records until the end or a fault. */
+static enum status read_lines(const struct command *command, const struct stream_reader *reader, struct stream *stream)
+{
   struct stream_line line = {0};
   struct stream_fault fault = {0};
-  enum status status = stream.buffer == NULL ? STATUS_LIMIT : STATUS_OK;
-  while (status == STATUS_OK && !(stream.ended && stream.begin == stream.end) && !ferror(stdout)) {
-    if (!find_line(&stream, reader->record, &line)) {
+  enum status status = reader->record == 0 ? skip_mark(command, stream) : STATUS_OK;
+  while (status == STATUS_OK && !(stream->ended && stream->begin == stream->end) && !ferror(stdout)) {
+    if (!find_line(stream, reader->record, &line)) {
       status = write_answers(command, reader); /* the sender may wait for these answers before it asks again */
-      if (status == STATUS_OK) status = refill(command, &stream);
+      if (status == STATUS_OK) status = refill(command, stream);
       continue;
     }
-    fault = line.length > MAX_LINE ? (struct stream_fault){"the line is too long", 0, 1}
-                                   : reader->take(reader->context, &line);
+    if (line.length > MAX_LINE) fault = (struct stream_fault){"the line is too long", 0, 1};
+    else if (reader->record != 0 || has_words(&line)) fault = reader->take(reader->context, &line);
     if (fault.text != NULL) break;
-    stream.begin += line.bytes;
-    stream.count++;
+    stream->begin += line.bytes;
+    stream->count++;
   }
   if (status == STATUS_OK) status = write_answers(command, reader);
-  if (status == STATUS_OK && fault.text != NULL) status = explain(command, &stream, &line, reader->record, fault);
+  return status == STATUS_OK && fault.text != NULL ? explain(command, stream, &line, reader->record, fault) : status;
+}
+
+enum status stream_read(const struct command *command, const struct stream_reader *reader)
+{
+  struct stream stream = {.name = stream_name(reader->path), .file = STDIN_FILENO, .size = BUFFER_SIZE};
+  const bool opened = reader->path != NULL && !output_is_standard(reader->path);
+  const char *reason;
+  if (opened) stream.file = input_open(reader->path, INPUT_FILE_OR_PIPE, &reason);
+  if (stream.file < 0) {
+    command_error(command, "%s: %s", reader->path, reason);
+    return STATUS_FILE;
+  }
+  stream.buffer = malloc(BUFFER_SIZE);
+  const enum status status = stream.buffer == NULL ? STATUS_LIMIT : read_lines(command, reader, &stream);
   if (status == STATUS_LIMIT) (void)command_out_of_memory(command);
   free(stream.buffer);
+  if (opened) (void)close(stream.file);
   return status;
 }

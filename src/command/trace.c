@@ -1,5 +1,4 @@
-/* pscn trace SCENE: rays on stdin, hits on stdout. */
-#include <float.h>
+/* pscn trace SCENE: rays from a file or stdin, hits on stdout. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -26,7 +25,7 @@ enum {
 
 struct request {
   struct scene_request scene; /* first: passed to scene_request_take */
-  const char *stats;
+  const char *rays, *stats;   /* rays NULL: standard input */
   bool binary, certainty, all, explain;
 };
 
@@ -58,11 +57,9 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
 {
   const bool missed = hit->patch == HIT_NONE;
   memset(out, 0, ANSWER_VALUES * sizeof *out);
-  const double distance = missed ? INFINITY : hit->t * vector_length(ray->direction);
-  const bool beyond = !missed && distance > DBL_MAX; /* becomes the largest double, and grazing */
-  out[0] = beyond ? DBL_MAX : distance;
+  out[0] = missed ? INFINITY : hit->t * vector_length(ray->direction);
   out[3] = missed ? -1 : (double)hit->patch;
-  out[7] = hit->certainty == CERTAINTY_CERTAIN && !beyond;
+  out[7] = hit->certainty == CERTAINTY_CERTAIN;
   if (!missed) {
     out[1] = hit->u;
     out[2] = hit->v;
@@ -140,7 +137,9 @@ static enum status answer(void *context)
   return session->status;
 }
 
-/* Makes a ray of six finite numbers; returns false if the direction is zero. The direction is scaled by a power of two,
+#define DIRECTION_IS_ZERO "the direction is zero; numbers below 1e-100 are read as 0"
+
+/* Makes a ray of six numbers; returns false if the direction is zero. The direction is scaled by a power of two,
  * so that its length neither overflows nor underflows, and no t exceeds a distance. */
 static bool make_ray(const double value[RAY_VALUES], struct ray *out)
 {
@@ -166,6 +165,8 @@ static struct stream_fault parse_line(const struct stream_line *line, struct ray
   for (int k = 0; k < RAY_VALUES; k++) {
     const int found = stream_number(line, &at, &value[k], &end, &fault);
     if (found < 0) return fault;
+    if (found > 0 && !number_in_range(&value[k]))
+      return (struct stream_fault){"a ray's numbers are 1e100 at most", fault.begin, fault.end};
     if (found == 0) return (struct stream_fault){"a ray is six numbers: ox oy oz dx dy dz", fault.begin, fault.end};
     direction = k == 3 ? at : direction;
     at = end;
@@ -173,7 +174,7 @@ static struct stream_fault parse_line(const struct stream_line *line, struct ray
   const size_t last = end;
   if (stream_number(line, &at, &value[RAY_VALUES], &end, &fault) != 0)
     return (struct stream_fault){"a ray is six numbers, and here is more", fault.begin, fault.end};
-  return (struct stream_fault){make_ray(value, out) ? NULL : "the direction is zero", direction, last};
+  return (struct stream_fault){make_ray(value, out) ? NULL : DIRECTION_IS_ZERO, direction, last};
 }
 
 /* The same for six little-endian doubles. */
@@ -186,9 +187,9 @@ static struct stream_fault parse_record(const struct stream_line *record, struct
     uint64_t bits = 0;
     for (int b = 7; b >= 0; b--) bits = bits << 8 | (unsigned char)record->text[8 * k + b];
     memcpy(&value[k], &bits, sizeof bits);
-    if (!isfinite(value[k])) return (struct stream_fault){.text = "a number is not finite"};
+    if (!number_in_range(&value[k])) return (struct stream_fault){.text = "a ray's numbers are 1e100 at most"};
   }
-  return (struct stream_fault){.text = make_ray(value, out) ? NULL : "the direction is zero"};
+  return (struct stream_fault){.text = make_ray(value, out) ? NULL : DIRECTION_IS_ZERO};
 }
 
 static struct stream_fault take(void *context, const struct stream_line *line)
@@ -207,10 +208,12 @@ static enum status check_request(const struct command *command, struct request *
     return command_usage(command, "a story is the nearest hit's: --explain and --all do not go together");
   if (request->explain && request->binary)
     return command_usage(command, "a story is text: --explain and --binary do not go together");
-  if (output_is_standard(request->scene.path))
+  const bool standard = request->rays == NULL || output_is_standard(request->rays);
+  if (standard && output_is_standard(request->scene.path))
     return command_usage(command, "the rays come from standard input, the scene from a file");
   enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
-  if (status == STATUS_OK) status = output_spare_input(command, request->stats, "/dev/stdin");
+  if (status == STATUS_OK)
+    status = output_spare_input(command, request->stats, standard ? "/dev/stdin" : request->rays);
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   return status;
 }
@@ -237,7 +240,8 @@ static enum status trace(const struct command *command, struct request *request)
   if (status == STATUS_OK) {
     start = seconds_now();
     session.scene = scene;
-    const struct stream_reader reader = {take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0};
+    const struct stream_reader reader = {take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0,
+                                         request->rays};
     status = stream_read(command, &reader);
     report.render = seconds_since(start);
     report.counts = *tracer_counts(session.tracer);
@@ -261,6 +265,7 @@ static enum status run(const struct command *command, int argc, const char **arg
     static char buffer[OUTPUT_BUFFER];
     (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     request.scene.path = line.positional[0];
+    request.rays = line.positional_count == 1 ? NULL : line.positional[1];
     status = trace(command, &request);
   }
   return status;
@@ -268,13 +273,14 @@ static enum status run(const struct command *command, int argc, const char **arg
 
 const struct command command_trace = {
   .name = "trace",
-  .arguments = "SCENE",
+  .arguments = "SCENE [FILE]",
   .summary = "Reads rays and answers where each hits the scene",
   .description =
-    "Standard input has one ray a line, 'ox oy oz dx dy dz'; the direction may have any length. Standard output has\n"
-    "one answer a line, in order: 'hit T U V PATCH NX NY NZ' or 'miss'. T is the distance from the origin in scene\n"
-    "units, U and V are the parameters of the whole patch, PATCH is its number from 0, N the unit normal facing the\n"
-    "origin. A bad line ends the run with its number, after the answers to the lines before it.\n"
+    "FILE, or standard input, has one ray a line, 'ox oy oz dx dy dz', with blanks or commas between the numbers; the\n"
+    "direction may have any length, and # begins a comment. Standard output has one line for each ray, in order:\n"
+    "'hit T U V PATCH NX NY NZ' or 'miss'. T is the distance from the origin in scene units, U and V are the\n"
+    "parameters of the whole patch, PATCH is its number from 0, N the unit normal facing the origin. A bad line ends\n"
+    "the run with its number, after the answers to the lines before it.\n"
     "\n"
     "--binary: a ray is six little-endian doubles, an answer seven, T U V PATCH NX NY NZ; a miss has T infinite,\n"
     "PATCH -1 and zeros.\n"

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "geometry/vector.h"
 #include "language/settings.h"
 
@@ -213,15 +214,14 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
   transform_direction(&items->transform, out->direction, out->direction);
   transform_direction(&items->transform, out->right, out->right);
   transform_direction(&items->transform, out->up, out->up);
-  bool finite = true;
-  for (int k = 0; k < 3; k++)
-    finite &= isfinite(out->location[k]) && isfinite(out->direction[k]) && isfinite(out->right[k]) &&
-              isfinite(out->up[k]);
-  if (!finite) {
-    language_error(language, items->block.place, "the camera's vectors are too large for numbers");
+  double *const vectors[] = {out->location, out->direction, out->right, out->up};
+  bool in_range = true;
+  for (int k = 0; k < 12; k++) in_range &= number_in_range(&vectors[k / 3][k % 3]);
+  if (!in_range) {
+    language_error(language, items->block.place, "the camera's vectors are larger than 1e100");
     return false;
   }
-  /* Numbers may have underflowed to 0, and a transform may have left only what all three vectors share. */
+  /* Numbers may have become 0, and a transform may have left only what all three vectors share. */
   return make_frame(language, items->block.place, out->direction, out->right, out->up, &frame) &&
          spans(language, items->block.place, &frame);
 }

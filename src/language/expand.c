@@ -1,9 +1,10 @@
 /* The list of patches. */
 #include "language/expand.h"
 
+#include <math.h>
 #include <string.h>
 
-#include "base/real.h"
+#include "base/number.h"
 
 /* Of nested objects, the outermost with at most this many patches is the one whose copies are recorded. */
 enum { COPIED_MOST = 1024 };
@@ -28,7 +29,8 @@ struct expansion {
   struct scene *scene;
   struct list textures, methods, objects, copies;
   bool in_copy;
-  bool told; /* a point that is too large */
+  bool small; /* numbers of the copy became 0 that are not 0 in the object */
+  bool told;  /* a point that is too large */
 };
 
 /* What a node passes down to its children. */
@@ -76,20 +78,30 @@ static bool intern(struct expansion *e, struct list *list, const void *item, uin
   return true;
 }
 
-static bool all_finite(const double *x, size_t count)
+/* What became of numbers that must be in the range of a scene's. */
+enum { RANGE_SMALL = 1, RANGE_LARGE = 2 }; /* some are 0 now; some are too large */
+
+static unsigned bring_in_range(double *x, size_t count)
 {
-  uint64_t over = 0;
-  for (size_t n = 0; n < count; n++) over |= real_infinite(x[n]);
-  return over == 0;
+  unsigned range = 0;
+  for (size_t n = 0; n < count; n++) {
+    const double size = fabs(x[n]);
+    range |= size <= NUMBER_LARGEST ? 0 : RANGE_LARGE;
+    range |= size < NUMBER_LEAST && size > 0 ? RANGE_SMALL : 0;
+    x[n] = size < NUMBER_LEAST ? 0 : x[n];
+  }
+  return range;
 }
 
 static void expand_points(struct expansion *e, const struct node *node, const struct transform *transform,
                           struct scene_patch *patch)
 {
   for (int i = 0; i < 4; i++) transform_points(transform, node->net->P[i], patch->P[i]);
-  if (all_finite((const double *)patch->P, sizeof patch->P / sizeof(double)) || e->told) return;
+  const unsigned range = bring_in_range((double *)patch->P, sizeof patch->P / sizeof(double));
+  e->small |= range & RANGE_SMALL;
+  if (!(range & RANGE_LARGE) || e->told) return;
   e->told = true;
-  language_error(e->language, node->place, "with its transforms applied, a control point is too large for numbers");
+  language_error(e->language, node->place, "with its transforms applied, a control point is larger than 1e100");
 }
 
 static bool expand_patch(struct expansion *e, const struct node *node, const struct inherited *with)
@@ -119,10 +131,12 @@ static double (*collect_nets(const struct node *node, const struct transform *tr
   return out;
 }
 
-/* Records that the patches expanded next are the object of `node`, moved. */
+/* Records that the patches expanded next are the object of `node`, moved, unless the object's own numbers are out of
+ * range. */
 static bool begin_copy(struct expansion *e, const struct node *node, const struct transform *transform)
 {
   struct scene *scene = e->scene;
+  e->small = false;
   if (node->sharing->object == 0) {
     const struct transform identity = transform_identity();
     struct scene_object *object = append(scene->arena, &e->objects);
@@ -132,7 +146,10 @@ static bool begin_copy(struct expansion *e, const struct node *node, const struc
     if (!object->P) return false;
     collect_nets(node, &identity, object->P);
     node->sharing->object = (uint32_t)scene->object_count;
+    if (bring_in_range((double *)object->P, node->patch_count * sizeof *object->P / sizeof(double)) != 0)
+      node->sharing->uses = 1;
   }
+  if (node->sharing->uses == 1) return true;
   struct scene_copy *copy = append(scene->arena, &e->copies);
   if (!copy) return false;
   copy->object = node->sharing->object - 1;
@@ -158,6 +175,7 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
   bool whole = true;
   if (node->net) whole = expand_patch(e, node, &with);
   for (const struct node *child = node->first; whole && child; child = child->next) whole = expand(e, child, &with);
+  if (is_copy && e->small && node->sharing->uses > 1) e->scene->copy_count--;
   e->in_copy &= !is_copy;
   return whole;
 }

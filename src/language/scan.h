@@ -42,7 +42,7 @@ struct scan {
   int comment_depth;
   size_t bad_end;   /* the end of the last characters that mean nothing */
   double number[3]; /* values of PSCN_TOKEN_NUMBER ([0]) and PSCN_TOKEN_POINT */
-  bool too_large;   /* one of them is too large for a double: at these bytes */
+  bool too_large;   /* one of them is too large: at these bytes */
   size_t too_large_begin, too_large_end;
   jmp_buf *broken;
   _Alignas(max_align_t) char pool[512]; /* the scanner's memory */

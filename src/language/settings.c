@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "language/sources.h"
 
 /* The versions of POV-Ray's language that a scene may ask for. It is read as the version whose gamma is ours. */
@@ -139,8 +140,9 @@ void light_end(struct language *language)
     language_error_in(language, &light->block, light->block.place, "light_source needs its position");
   double *position = light->light.position;
   transform_point(&light->transform, position, position);
-  if (!(isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]))) {
+  bool in_range = true;
+  for (int k = 0; k < 3; k++) in_range &= number_in_range(&position[k]);
+  if (!in_range)
     language_error(language, light->block.place,
-                   "with its transforms applied, the light's position is too large for numbers");
-  }
+                   "with its transforms applied, the light's position is larger than 1e100");
 }

@@ -10,7 +10,8 @@ static void tell_too_large(struct language *language)
 {
   struct frame *frame = language->sources->frame;
   struct scan *scan = &frame->scan;
-  language_tell(language, sources_span(frame, scan->too_large_begin, scan->too_large_end), "this number is too large");
+  language_tell(language, sources_span(frame, scan->too_large_begin, scan->too_large_end),
+                "this number is larger than 1e100");
   for (int k = 0; k < 3; k++) scan->number[k] = 1;
 }
 

@@ -150,8 +150,8 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
   const struct span place = span_join(a->place, b->place);
   value_last(language, b);
   if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER) { /* the usual case */
-    const double x = operate(op, a->x[0], b->x[0]);
-    if (isfinite(x)) return value_moved(set(a, x, x, x), place);
+    double x = operate(op, a->x[0], b->x[0]);
+    if (number_in_range(&x)) return value_moved(set(a, x, x, x), place);
   }
   const bool a_usable = usable(language, a, "a value");
   if (!usable(language, b, "a value") || !a_usable || !stays_opaque(language, op, a, b))
@@ -165,8 +165,8 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
       return become_unknown(a, place);
     }
     a->x[k] = operate(op, a->x[k], b->x[k]);
-    if (!isfinite(a->x[k])) {
-      language_error(language, place, "the result is too large for a number");
+    if (!number_in_range(&a->x[k])) {
+      language_error(language, place, "the result is larger than 1e100");
       return become_unknown(a, place);
     }
   }

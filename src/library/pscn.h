@@ -34,6 +34,9 @@
  * pscn_occluded reports a hit. (Of patches whose solver says `polish off`, nothing is proven. Of roots no farther apart
  * than that solver's errors, any one may be the answer, and not the same one in every call.)
  *
+ * The numbers of scenes and rays are at most 1e100, or they are refused: those of a text, control points, origins and
+ * directions, but not t_min and t_max. Numbers below 1e-100 are read as 0.
+ *
  * C11 or later, or C++. Link with -lpscn; the static library also needs -lm. `pkg-config pscn` and CMake's
  * find_package(pscn), with the targets pscn::pscn and pscn::static, know where both are.
  */
@@ -202,13 +205,13 @@ enum pscn_verdict { PSCN_MISS = 0, PSCN_HIT = 1, PSCN_NO_ANSWER = 2 };
 /* Every member is written, whatever the verdict. Without a hit, t is infinite, patch is PSCN_NO_PATCH and the other
  * numbers are 0. */
 struct pscn_hit {
-  double t;            /* in units of the direction's length; beyond the largest double it is that one, and grazing */
+  double t;            /* in units of the direction's length */
   double u, v;         /* of the whole patch, in [0,1] */
   double point[3];     /* S(u,v), a little more exact than origin + t direction */
   double point_error;  /* bound on the distance from `point` to the exact surface */
   double clearance;    /* see pscn_leave */
   double normal[3];    /* of unit length, facing the ray's origin; against the ray if the surface has none */
-  double du[3], dv[3]; /* dS/du, dS/dv, to roundings of the patch's size; not numbers if that is near DBL_MAX */
+  double du[3], dv[3]; /* dS/du, dS/dv, to roundings of the patch's size */
   uint32_t patch;
   int32_t verdict;  /* enum pscn_verdict */
   int32_t certain;  /* 1: proven; 0: grazing, or no answer */

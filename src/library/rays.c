@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "geometry/control_points.h"
 #include "intersect/tracer.h"
 #include "library/library.h"
@@ -35,16 +36,16 @@ static void *answer_at(const struct call *call, size_t number)
 /* Copies the ray. Returns false if it is invalid. */
 static bool take_ray(const struct pscn_ray *ray, struct ray *out)
 {
-  bool finite = true, moves = false;
-  for (int k = 0; k < 3; k++) {
-    finite &= isfinite(ray->origin[k]) && isfinite(ray->direction[k]);
-    moves |= ray->direction[k] != 0;
-  }
+  bool in_range = true, moves = false;
   memcpy(out->origin, ray->origin, sizeof out->origin);
   memcpy(out->direction, ray->direction, sizeof out->direction);
+  for (int k = 0; k < 3; k++) {
+    in_range &= number_in_range(&out->origin[k]) & number_in_range(&out->direction[k]);
+    moves |= out->direction[k] != 0;
+  }
   out->t_min = ray->t_min;
   out->t_max = ray->t_max;
-  return finite && moves && ray->t_min >= 0 && !isnan(ray->t_max);
+  return in_range && moves && ray->t_min >= 0 && !isnan(ray->t_max);
 }
 
 /* ---- the nearest hit ---- */

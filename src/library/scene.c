@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "language/language.h"
 #include "library/library.h"
 
@@ -140,8 +141,8 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
     const struct pscn_number *number = &options->numbers[k];
     const size_t length = number->name ? strlen(number->name) : 0;
     if (!language_is_name(number->name, length)) return wrong(scene, "a number has a name that cannot be declared");
-    if (!isfinite(number->value)) return wrong(scene, "a declared number is not finite");
     numbers[k] = (struct language_number){number->name, length, number->value};
+    if (!number_in_range(&numbers[k].value)) return wrong(scene, "a declared number is no number up to 1e100");
   }
   if (isnan(options->tolerance)) return wrong(scene, "the tolerance is no number");
   *out = (struct language_settings){.image_width = options->image_width ? options->image_width : DEFAULT_WIDTH,
@@ -180,9 +181,9 @@ static enum pscn_status add_points(struct pscn_scene *scene, const struct points
     for (int k = 0; k < 16; k++) {
       double *p = to->patches[n].P[k / 4][k % 4];
       memcpy(p, patch + k * points->point_stride, 3 * sizeof *p);
-      if (isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2])) continue;
-      diagnostics_error(&scene->diagnostics, NOWHERE, "patch %zu: control point [%d][%d] is not finite", n, k / 4,
-                        k % 4);
+      if (number_in_range(&p[0]) & number_in_range(&p[1]) & number_in_range(&p[2])) continue;
+      diagnostics_error(&scene->diagnostics, NOWHERE, "patch %zu: control point [%d][%d] is no number up to 1e100", n,
+                        k / 4, k % 4);
       return PSCN_INPUT;
     }
   }

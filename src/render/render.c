@@ -40,11 +40,25 @@ static uint64_t count_rays(const struct tracer *tracer)
   return counts->rays[0] + counts->rays[1];
 }
 
-static bool raised(const atomic_int *flag) { return flag != NULL && atomic_load(flag) != 0; }
+static bool stopped(const struct crew *crew) { return atomic_load(&crew->aborted) || tile_stopped(crew->job); }
 
-static bool stopped(const struct crew *crew)
+/* Renders what is left of a tile, row by row. With warm starts, that is all of it. */
+static void render_tile(struct crew *crew, const struct worker *worker, size_t k)
 {
-  return atomic_load(&crew->aborted) || raised(crew->watch->stop) || raised(crew->watch->failed);
+  const struct tile_list *tiles = crew->tiles;
+  size_t row = crew->job->every_pixel ? 0 : atomic_load(&tiles->rows[k]);
+  uint64_t rays = count_rays(worker->tracer);
+  tracer_forget(worker->tracer);
+  for (; row < TILE_ROWS && tile_render_row(crew->job, worker->tracer, worker->certified, &tiles->tile[k], row);
+       row++) {
+    const uint64_t before = rays;
+    rays = count_rays(worker->tracer);
+    atomic_fetch_add(&crew->rays, rays - before);
+    if (row < atomic_load(&tiles->rows[k])) continue;
+    atomic_fetch_add(&crew->pixels,
+                     tiles->tile[k].width * (tile_top(tiles, k, row + 1).height - tile_top(tiles, k, row).height));
+    atomic_store(&tiles->rows[k], (unsigned char)(row + 1));
+  }
 }
 
 static enum status work(void *context, size_t index)
@@ -54,13 +68,7 @@ static enum status work(void *context, size_t index)
   while (!stopped(crew)) {
     const size_t k = atomic_fetch_add(&crew->next, 1);
     if (k >= crew->tiles->count) break;
-    if (atomic_load(&crew->tiles->done[k])) continue;
-    const struct rectangle *tile = &crew->tiles->tile[k];
-    const uint64_t before = count_rays(worker->tracer);
-    tile_render(crew->job, worker->tracer, worker->certified, tile);
-    atomic_store(&crew->tiles->done[k], true);
-    atomic_fetch_add(&crew->pixels, tile->width * tile->height);
-    atomic_fetch_add(&crew->rays, count_rays(worker->tracer) - before);
+    if (!tile_is_done(crew->tiles, k)) render_tile(crew, worker, k);
   }
   pthread_mutex_lock(&crew->mutex);
   if (--crew->running == 0) pthread_cond_signal(&crew->ended);
@@ -193,6 +201,7 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
 {
   const double start = clock_seconds(CLOCK_MONOTONIC);
   *out_stats = (struct render_stats){0};
+  struct tile_seen seen = {0};
   const struct tile_job job = {.scene = scene,
                                .width = options->width,
                                .height = options->height,
@@ -200,7 +209,9 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
                                .crop = options->crop,
                                .every_pixel = scene_starts_warm(scene),
                                .channels = options->channels,
-                               .out = out};
+                               .out = out,
+                               .stop = {watch->stop, watch->failed},
+                               .seen = &seen};
   struct tile_list all = {0};
   struct crew crew = {.job = &job, .watch = watch, .tiles = options->tiles == NULL ? &all : options->tiles};
   enum status status = options->tiles == NULL ? tile_list_create(&options->crop, 1, 1, &all) : STATUS_OK;
@@ -225,5 +236,6 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   certified_destroy(&certified);
   tile_list_destroy(&all);
   out_stats->threads = count;
+  out_stats->seen = atomic_load(&seen.patch), out_stats->lit = atomic_load(&seen.light);
   return status;
 }

@@ -3,6 +3,7 @@
 #define PSCN_RENDER_RENDER_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -41,6 +42,7 @@ struct render_watch {
 struct render_stats {
   struct intersect_counts counts; /* rays[0] primary rays, rays[1] shadow rays */
   size_t threads;                 /* that took part */
+  bool seen, lit;                 /* some ray has hit a patch, and one where it is not black */
 };
 
 /* Renders into out[crop.height][crop.width][channels.width]. The same options give the same values, bit for bit, for

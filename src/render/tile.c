@@ -12,6 +12,7 @@ struct pixel {
   size_t x, y;
   double rgb[3];  /* sum over the samples */
   size_t hits;    /* samples that hit */
+  bool lit;       /* one of them is not black */
   struct hit hit; /* of the middle sample, with its distance */
   double distance;
   struct explained_numbers solver; /* if needed */
@@ -33,7 +34,7 @@ static size_t gather(const struct tile_job *job, const struct rectangle *kept, s
     if (!(x < job->width && y < job->height && (job->every_pixel || inside(kept, x, y)))) continue;
     /* Of the rest, a hundred bytes, only what is needed is written. */
     struct pixel *pixel = &out[count++];
-    pixel->x = x, pixel->y = y, pixel->hits = 0, pixel->hit.patch = HIT_NONE;
+    pixel->x = x, pixel->y = y, pixel->hits = 0, pixel->lit = false, pixel->hit.patch = HIT_NONE;
     pixel->rgb[0] = pixel->rgb[1] = pixel->rgb[2] = 0;
   }
   return count;
@@ -75,6 +76,7 @@ static void sample(const struct tile_job *job, struct tracer *tracer, struct tra
   for (size_t k = 0; k < count; k++) {
     vector_add_scaled(pixels[k].rgb, 1, rgb[k], pixels[k].rgb);
     pixels[k].hits += hits[k].patch != HIT_NONE;
+    pixels[k].lit |= hits[k].patch != HIT_NONE && (rgb[k][0] != 0 || rgb[k][1] != 0 || rgb[k][2] != 0);
     if (middle) {
       pixels[k].hit = hits[k];
       pixels[k].distance = hits[k].patch == HIT_NONE ? INFINITY : hits[k].t * vector_length(rays[k].direction);
@@ -126,20 +128,23 @@ static void keep(const struct tile_job *job, const struct pixel *pixel)
   }
 }
 
-void tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified,
-                 const struct rectangle *kept)
+bool tile_render_row(const struct tile_job *job, struct tracer *tracer, struct tracer *certified,
+                     const struct rectangle *kept, size_t row)
 {
-  const size_t x0 = kept->x / TILE_SIZE * TILE_SIZE, y0 = kept->y / TILE_SIZE * TILE_SIZE;
-  tracer_forget(tracer);
-  for (size_t y = y0; y < y0 + TILE_SIZE; y += PACKET_HEIGHT) {
-    for (size_t x = x0; x < x0 + TILE_SIZE; x += PACKET_WIDTH) {
-      struct pixel pixels[PACKET_SIZE];
-      const size_t count = gather(job, kept, x, y, pixels);
-      if (count == 0) continue;
-      for (size_t j = 0; j < job->samples; j++)
-        for (size_t i = 0; i < job->samples; i++) sample(job, tracer, certified, i, j, count, pixels);
-      for (size_t k = 0; k < count; k++)
-        if (inside(kept, pixels[k].x, pixels[k].y)) keep(job, &pixels[k]);
+  const size_t x0 = kept->x / TILE_SIZE * TILE_SIZE, y = kept->y / TILE_SIZE * TILE_SIZE + row * PACKET_HEIGHT;
+  for (size_t x = x0; x < x0 + TILE_SIZE; x += PACKET_WIDTH) {
+    struct pixel pixels[PACKET_SIZE];
+    const size_t count = gather(job, kept, x, y, pixels);
+    for (size_t k = 0; k < job->samples * job->samples && count > 0; k++) {
+      if (tile_stopped(job)) return false;
+      sample(job, tracer, certified, k % job->samples, k / job->samples, count, pixels);
+    }
+    for (size_t k = 0; k < count; k++) {
+      if (!inside(kept, pixels[k].x, pixels[k].y)) continue;
+      keep(job, &pixels[k]);
+      if (pixels[k].hits > 0 && !atomic_load(&job->seen->patch)) atomic_store(&job->seen->patch, true);
+      if (pixels[k].lit && !atomic_load(&job->seen->light)) atomic_store(&job->seen->light, true);
     }
   }
+  return !tile_stopped(job);
 }

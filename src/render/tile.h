@@ -6,6 +6,7 @@
 #ifndef PSCN_RENDER_TILE_H
 #define PSCN_RENDER_TILE_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -16,6 +17,7 @@
 
 /* Sides in pixels of a tile, and of a packet, which divides it evenly. */
 enum { TILE_SIZE = 32, PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
+enum { TILE_ROWS = TILE_SIZE / PACKET_HEIGHT }; /* rows of packets in a tile */
 
 /* What to render. Pointers are borrowed. */
 struct tile_job {
@@ -25,12 +27,26 @@ struct tile_job {
   struct rectangle crop; /* the pixels that `out` holds */
   bool every_pixel;      /* render whole tiles, because a ray may depend on the previous one (`start previous`) */
   struct channel_list channels;
-  float *out; /* [crop.height][crop.width][channels.width] */
+  float *out;                /* [crop.height][crop.width][channels.width] */
+  const atomic_int *stop[2]; /* the work ends when one turns nonzero; NULL: never */
+  struct tile_seen *seen;
 };
 
-/* Renders the tile that contains the pixels `kept`, and stores those. `certified` answers for CHANNEL_DEVIATION; NULL
- * if that is not needed. */
-void tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified,
-                 const struct rectangle *kept);
+/* What any ray of the picture has seen: a patch, and one that is not black. */
+struct tile_seen {
+  atomic_bool patch, light;
+};
+
+static inline bool tile_stopped(const struct tile_job *job)
+{
+  return (job->stop[0] != NULL && atomic_load(job->stop[0]) != 0) ||
+         (job->stop[1] != NULL && atomic_load(job->stop[1]) != 0);
+}
+
+/* Renders one row of packets, 0 ... TILE_ROWS-1, of the tile that contains the pixels `kept`, and stores those of them.
+ * `certified` answers for CHANNEL_DEVIATION; NULL if that is not needed. Returns false if the work was stopped; then
+ * some of the row's pixels are not stored. */
+bool tile_render_row(const struct tile_job *job, struct tracer *tracer, struct tracer *certified,
+                     const struct rectangle *kept, size_t row);
 
 #endif

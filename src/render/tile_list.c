@@ -66,8 +66,8 @@ enum status tile_list_create(const struct rectangle *crop, size_t piece, size_t 
   const size_t most = (way.right - way.left) * (way.bottom - way.top) / pieces + 1;
   *out = (struct tile_list){0};
   list.tile = calloc(most, sizeof *list.tile);
-  list.done = calloc(most, sizeof *list.done);
-  const bool enough = list.tile != NULL && list.done != NULL;
+  list.rows = calloc(most, sizeof *list.rows);
+  const bool enough = list.tile != NULL && list.rows != NULL;
   if (enough) follow(&way, 0, 0, CURVE_SIDE, false, false);
   if (enough) *out = list;
   else tile_list_destroy(&list);
@@ -77,14 +77,22 @@ enum status tile_list_create(const struct rectangle *crop, size_t piece, size_t 
 void tile_list_destroy(struct tile_list *list)
 {
   free(list->tile);
-  free(list->done);
+  free(list->rows);
   *list = (struct tile_list){0};
+}
+
+struct rectangle tile_top(const struct tile_list *list, size_t k, size_t rows)
+{
+  struct rectangle part = list->tile[k];
+  const size_t end = part.y / TILE_SIZE * TILE_SIZE + rows * PACKET_HEIGHT;
+  if (end < part.y + part.height) part.height = end > part.y ? end - part.y : 0;
+  return part;
 }
 
 size_t tile_list_pixels(const struct tile_list *list, bool done_only)
 {
   size_t pixels = 0;
   for (size_t k = 0; k < list->count; k++)
-    if (!done_only || atomic_load(&list->done[k])) pixels += list->tile[k].width * list->tile[k].height;
+    pixels += list->tile[k].width * tile_top(list, k, done_only ? atomic_load(&list->rows[k]) : TILE_ROWS).height;
   return pixels;
 }

@@ -17,7 +17,9 @@
 struct tile_list {
   size_t count;
   struct rectangle *tile; /* the crop's pixels in each tile; never empty */
-  atomic_bool *done;      /* whether each is in the picture; set by rendering threads after its last pixel */
+  /* how many rows of packets of each are in the picture, from the top: TILE_ROWS, all; counted up by rendering threads
+   * after a row's last pixel */
+  atomic_uchar *rows;
 };
 
 /* Piece `piece` (from 1) of `pieces` of the crop; {1, 1} is all of it. The caller destroys the list. Returns
@@ -26,7 +28,15 @@ enum status tile_list_create(const struct rectangle *crop, size_t piece, size_t 
                              struct tile_list *out) STATUS_MUST_CHECK;
 void tile_list_destroy(struct tile_list *list); /* and zeroes it */
 
-/* The number of pixels, in all tiles or in those that are done. */
+static inline bool tile_is_done(const struct tile_list *list, size_t k)
+{
+  return atomic_load(&list->rows[k]) == TILE_ROWS;
+}
+
+/* The pixels of tile k in its first `rows` rows of packets; perhaps none. */
+struct rectangle tile_top(const struct tile_list *list, size_t k, size_t rows);
+
+/* The number of pixels, of all tiles or of those rows that are done. */
 size_t tile_list_pixels(const struct tile_list *list, bool done_only);
 
 #endif

@@ -10,6 +10,14 @@ try pscn render -q $small -- flat.pscn
 (export POSIXLY_CORRECT=1; try pscn render flat.pscn -qo posix.png $small)
 pscn render -qhz | head -n 1
 try pscn nothing.pscn
+try pscn nosuch.pov
+try pscn folder/nosuch
+# POV-Ray's options are told their equals; its own -Q is none of them beside -q.
+for option in +W320 +H240 +Iflat.pscn +Oout.png -D +A0.3 +KFF10 -w320 +FN16 +SC0.2; do
+  try pscn $option flat.pscn
+done
+try pscn render flat.pscn -q +C
+try pscn compare a b -A
 try pscn -V
 try pscn -v
 try pscn -h | head -n 1
@@ -44,6 +52,16 @@ try pscn render flat.pscn -o .png.foo
 try pscn compare a.png b.png -o .exr
 echo "camera { }" >empty.pscn
 try pscn render missing.pscn -o a.png
+# Nothing to be seen is worth a warning, one.
+sed 's/look_at *<[^>]*>/look_at <0,90,0>/' $SCENES/bent.pscn >away.pscn
+grep -v light_source $SCENES/bent.pscn |
+  sed 's/pigment { color rgb <0.6, 0.6, 0.65> }/& finish { ambient 0 }/; s/finish { specular/finish { ambient 0 specular/' >dark.pscn
+echo 'light_source { <0,0,-9>, rgb 0 }' | cat dark.pscn - >night.pscn
+for scene in empty away dark night $SCENES/bent; do
+  pscn render $scene.pscn -o seen.png --size 8x6 2>&1 | grep warning
+  pscn render $scene.pscn -o seen.png --size 8x6 -q
+done
+rm -f away.pscn dark.pscn night.pscn seen.png
 # "1 patch" is singular.
 pscn render flat.pscn $small 2>&1 | grep -c ' 1 patch,'
 # The progress line is no longer than the terminal is wide.

@@ -29,6 +29,17 @@ for name in kept.exr linked.exr; do
   try pscn render scene.pscn -o $name $small --resume
 done
 cksum kept.exr.part.exr | cmp - sum && rm kept.exr* linked.exr*
+# Nor does a link of that name lead anywhere.
+echo victim >victim
+mkdir up
+ln -s ../victim up/a.png.part.exr
+ln -s ../nothing up/b.png.part.exr
+try pscn render scene.pscn -o up/a.png $small
+try pscn render scene.pscn -o up/a.png $small --resume
+try pscn render scene.pscn -o up/b.png $small
+cat victim
+ls up
+rm -r up victim
 echo '1 0 -1' >polynomials
 try pscn roots --stats polynomials <polynomials
 cat polynomials

@@ -12,6 +12,20 @@ done
 cat a.png
 ls -A
 rm a.png.part.exr
+# However long a tile or a ray may take, the first signal is obeyed soon, and a second one at once.
+ended() { # SIGNAL OPTION...: how long a rendering takes to end; in tenths of a second
+  local signal=$1 begun
+  shift
+  pscn render "$@" -o slow.png --threads 1 --quiet &
+  sleep 1
+  begun=$(date +%s%N)
+  kill -$signal $!
+  wait $!
+  echo "exit $?: $((($(date +%s%N) - begun) / 1000000000)) seconds"
+}
+ended TERM "$scene" --size 32x32 --samples 256
+(ulimit -St 2; pscn render "$scene" --size 32x32 --samples 256 -o slow.png --threads 1 --quiet; echo "exit $?")
+rm -f slow.png.part.exr
 pscn render "$scene" -o - --size 2000x2000 --samples 16 --quiet >/dev/null &
 sleep 1
 kill -INT $!

@@ -62,16 +62,22 @@ rm small.exr.part.exr
 echo no picture >half.exr.part.exr
 pscn render $scene -o half.exr --resume 2>&1; echo "exit $?"
 # Nothing is continued unless asked for, but that is said. A complete picture removes the kept file, even a part of
-# another picture.
-for part in one.exr some.exr; do
-  cp $part half.exr.part.exr
-  pscn render $SCENES/flat.pscn --size 20x10 -o half.exr --quiet
-  [ -e half.exr.part.exr ] && echo "$part is still there"
-  cp $part half.exr.part.exr
-  pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>said
+# another picture of this scene. Any other file stays, and that is an error.
+for options in "--quiet" ""; do
+  cp some.exr half.exr.part.exr
+  pscn render $SCENES/bent.pscn --size 20x10 -o half.exr $options 2>said
   head -n 1 said
+  [ -e half.exr.part.exr ] && echo "some.exr is still there"
 done
-rm said
+rm said half.exr
+for part in one.exr some.exr one.png; do
+  for options in "" --resume; do
+    cp $part half.exr.part.exr
+    try pscn render $SCENES/flat.pscn --size 20x10 -o half.exr $options
+    cmp $part half.exr.part.exr
+  done
+done
+rm half.exr.part.exr
 # A file that has some tiles twice counts for none: the tiles missing without it are reported.
 pscn render $scene --tile 1/1 -o all.exr --quiet
 try pscn merge some.exr all.exr -o no.png
@@ -104,7 +110,7 @@ sed -n 's/the [0-9]* %/so many %/p; /earlier/p' said
 resumed cut.exr
 rm all.exr said
 # --checkpoint 0: an existing file stays unchanged while the picture is rendered.
-pscn render $SCENES/flat.pscn --size 20x10 --tile 1/1 -o other.exr --quiet
+pscn render $SCENES/bent.pscn --size 20x10 --tile 1/1 -o other.exr --quiet
 cp other.exr never.exr.part.exr
 pscn render $scene -o never.exr --threads 1 --checkpoint 0 2>said &
 for wait in {1..200}; do [ -s said ] && break || sleep 0.05; done
@@ -113,13 +119,28 @@ kill -KILL $! 2>/dev/null
 wait $! 2>/dev/null
 cmp other.exr never.exr.part.exr && echo 'nothing is kept'
 rm -f other.exr never.exr* said
-# Nor is a rendering kept without a finished tile: all of this picture is one tile.
-pscn render $SCENES/bent.pscn --size 32x32 --samples 99 -o none.exr --threads 1 --checkpoint 0.05 --quiet &
-sleep 0.5
-kill -KILL $! 2>/dev/null
-wait $! 2>/dev/null
-[ -e none.exr.part.exr ] && echo 'nothing is kept as something'
-rm -f none.exr*
+# All of this picture is one tile. The rows that are whole are kept, and gone on from; a tile whose rays start from those
+# before them is begun anew. A row takes longer than a signal is waited for.
+scene="$SCENES/bent.pscn --size 32x32 --samples 60 --threads 1 --quiet"
+pscn render $scene -o whole.exr
+whole=$((32 * 32 * 60 * 60))
+for solver in bernstein 'aberth { start previous }'; do
+  for attempt in {1..20}; do
+    rm -f rows.exr
+    pscn render $scene -o rows.exr --solver "$solver" --checkpoint 0.05 &
+    for wait in {1..400}; do [ -e rows.exr.part.exr ] && break || sleep 0.02; done
+    kill -TERM $! 2>/dev/null
+    wait $! 2>/dev/null || break
+  done
+  grep -ao 'pscn:done.string.....0:[1-7]' rows.exr.part.exr | tr -d '\0-\37' | sed 's|[1-7]$|some|'; echo
+  pscn merge rows.exr.part.exr -o no.exr; echo "exit $?"
+  pscn render $scene -o rows.exr --solver "$solver" --resume --stats stats.json
+  primary=$(sed -n 's/.*"primary": \([0-9]*\).*/\1/p' stats.json)
+  echo "$solver: $([ "$primary" -lt $whole ] && echo less || echo all)"
+  [ "$solver" = bernstein ] || pscn render $scene -o whole.exr --solver "$solver"
+  pscn compare rows.exr whole.exr --fail 0 --quiet && echo 'rows.exr is whole.exr'
+done
+rm rows.exr whole.exr
 # Nothing to continue.
 pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
 LC_ALL=C ls

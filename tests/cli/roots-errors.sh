@@ -1,12 +1,16 @@
 # A bad line ends the run, after the answers to the lines before it.
 good='2 -1'
 bad() { printf "$good\n$1\n$good\n" | try pscn roots; }
-bad ''
 bad '7'
+bad '# 1 2'"\n7"
 bad '1 2 x'
 bad '1 nan'
 bad '1 1e999 2'
-bad '1,2,3'
+bad '1 2+3i 1'
+bad '[1,-3,2]'
+bad '1,,3'
+bad ',1,3'
+bad '1,3,'
 bad '0 0 0'
 bad "$(printf '1 %.0s' $(seq 66))"
 printf "$good\n$good\n1 2y" | try pscn roots
@@ -15,6 +19,8 @@ try pscn roots <&-
 echo "$good" | pscn roots >/dev/full
 echo "exit $?"
 try pscn roots scene </dev/null
+try pscn roots scene scene </dev/null
+try pscn roots /dev/null
 try pscn roots --iterates --solver nothing </dev/null
 try pscn roots --tolerance 0 </dev/null
 try pscn roots --tolerance 2 </dev/null # as trace

@@ -1,8 +1,14 @@
 # Polynomials and roots. The printed answers are exact in double, whatever the order of roundings.
 try pscn roots </dev/null
 printf '%s\n' '2 -1' '1 0 1' '1 0 0' '0 0 5' '0 0 1 -1' '+.5   1e0 0.' '1 0 -1 0' | try pscn roots
-# Lines may end with CR LF; the last one may have no end.
+# Lines may end with CR LF; the last one may have no end. A byte order mark, comments, empty lines and commas are fine, and
+# the line's number counts them.
 printf '4 -1\r\n1\t-1' | try pscn roots
+printf '\xef\xbb\xbf# four halves\n\n2,-1\n 2 , -1 # one\r\n \t\r\n2 -1\n2,\t-1' >file
+try pscn roots file
+try pscn roots - <file
+try pscn roots --format table <file
+printf '\xef\xbb' | try pscn roots 2>&1
 for solver in bernstein newton laguerre aberth 'aberth { basis bernstein }' 'newton { form paper }'; do
   printf '1 -0.25 0\n4 -1\n8 -1 0 0\n' | try pscn roots --solver "$solver"
 done

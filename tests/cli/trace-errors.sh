@@ -2,11 +2,11 @@
 scene=$SCENES/flat.pscn
 good='0 0 -4 0 0 1'
 bad() { printf "$good\n$1\n$good\n" | try pscn trace "$scene"; }
-bad ''
 bad '1 2 3'
 bad '1 2 3 4 5 x6'
 bad '1 2 3 4 5 6 7'
-bad '1,2,3,4,5,6'
+bad '1,2,3,4,5,,6'
+bad '<1,2,3>, <4,5,6>'
 bad 'nan 0 0 0 0 1'
 bad '0 0 0 0 inf 1'
 bad '0 0 0 0 1e999 1'
@@ -29,5 +29,8 @@ echo "exit $?"
 echo "$good" | try pscn trace "$scene" --stats nowhere/a.json
 try pscn trace
 try pscn trace "$scene" "$scene"
+try pscn trace "$scene" nothing
+try pscn trace - - <"$scene"
+try pscn trace "$scene" a b
 try pscn trace "$scene" --tolerance 0
 try pscn trace "$scene" --size 1x1

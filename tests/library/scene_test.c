@@ -122,7 +122,7 @@ static void test_arguments(void **state)
     {{.size = sizeof(struct pscn_options), .image_height = -1}, "negative"},
     {{.size = sizeof(struct pscn_options), .number_count = 1}, "numbers is NULL"},
     {{.size = sizeof(struct pscn_options), .numbers = &named_so, .number_count = 1}, "cannot be declared"},
-    {{.size = sizeof(struct pscn_options), .numbers = &infinite, .number_count = 1}, "not finite"},
+    {{.size = sizeof(struct pscn_options), .numbers = &infinite, .number_count = 1}, "no number up to 1e100"},
   };
   struct pscn_scene *scene;
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
@@ -140,7 +140,7 @@ static void test_arguments(void **state)
   points[5][1][2][0] = NAN;
   assert_int_equal(pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &scene),
                    PSCN_INPUT);
-  assert_string_equal(pscn_scene_messages(scene), "error: patch 5: control point [1][2] is not finite\n");
+  assert_string_equal(pscn_scene_messages(scene), "error: patch 5: control point [1][2] is no number up to 1e100\n");
   assert_int_equal(pscn_patch_count(scene), 0);
   struct pscn_camera camera, none = {{0}, {0}, {0}, {0}};
   memset(&camera, 0xff, sizeof camera);

@@ -450,9 +450,8 @@ static void a_failing_name_undoes_those_before(void **state)
   expect_file("there", "old");
 }
 
-/* A file that is removed takes its link along: a dangling link would prevent writing the next time. A file that stays
- * keeps its link. */
-static void a_link_goes_with_its_file(void **state)
+/* Of a link only the name is removed or replaced: what it points to may be somebody else's. */
+static void a_link_goes_without_its_file(void **state)
 {
   (void)state;
   struct atomic_file files[] = {{"link", NULL, 0}, {"last", "new", 3}};
@@ -465,9 +464,12 @@ static void a_link_goes_with_its_file(void **state)
   expect_file("link", "old");
   assert_int_equal(rmdir("last"), 0);
   assert_int_equal(atomic_files_write(files, 1, NULL, &failed, &reason), STATUS_OK);
-  assert_int_equal(count_entries(), 0);
-  assert_int_equal(write_text("link", "new", &reason), STATUS_OK);
+  expect_file("far", "old");
+  assert_int_equal(count_entries(), 1);
+  assert_int_equal(symlink("far", "link"), 0);
+  assert_int_equal(atomic_file_put(&(struct atomic_file){"link", "new", 3}, &reason), STATUS_OK);
   expect_file("link", "new");
+  expect_file("far", "old");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
@@ -488,7 +490,7 @@ int main(void)
     IN_FOLDER(several_files_appear_together),
     IN_FOLDER(a_file_may_go_twice),
     IN_FOLDER(a_failing_name_undoes_those_before),
-    IN_FOLDER(a_link_goes_with_its_file),
+    IN_FOLDER(a_link_goes_without_its_file),
     IN_FOLDER(what_may_not_be_written_is_not_replaced),
     IN_FOLDER(what_cannot_be_replaced_is_known_before),
     IN_FOLDER(names_that_others_made_are_passed_over),

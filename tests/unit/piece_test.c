@@ -59,13 +59,18 @@ static void a_part_tells_which_tiles_it_has(void **state)
   (void)state;
   static const struct {
     const char *text;
-    unsigned done; /* bit k: tile k */
-  } lists[] = {{"0", 1}, {"5", 32}, {"0-5", 63}, {"0,2-3,5", 45}, {"1,2", 6}, {"", 0} /* which is not in the file */};
+    unsigned done;        /* bit k: tile k */
+    unsigned begun, rows; /* of that tile so many rows */
+  } lists[] = {{"0", 1, 0, 0},   {"5", 32, 0, 0},      {"0-5", 63, 0, 0}, {"0,2-3,5", 45, 0, 0},
+               {"1,2", 6, 0, 0}, {"1,2,0:3", 6, 0, 3}, {"4:7", 0, 4, 7},  {"", 0, 0, 0} /* which is not in the file */};
   for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
     struct piece piece;
     assert_int_equal(read_part("1/1", lists[k].text, &piece), STATUS_OK);
     assert_int_equal(piece.tiles.count, TILES);
-    for (size_t n = 0; n < TILES; n++) assert_int_equal(atomic_load(&piece.tiles.done[n]), lists[k].done >> n & 1);
+    for (size_t n = 0; n < TILES; n++) {
+      const unsigned rows = atomic_load(&piece.tiles.rows[n]);
+      assert_int_equal(rows, lists[k].done >> n & 1 ? TILE_ROWS : n == lists[k].begun ? lists[k].rows : 0);
+    }
     piece_destroy(&piece);
   }
 }
@@ -73,9 +78,11 @@ static void a_part_tells_which_tiles_it_has(void **state)
 static void what_cannot_be_is_no_part(void **state)
 {
   (void)state;
-  static const char *const lists[] = {"6",    "0-6", "3-9999999", "5-4",  "2,1", "2,2", "0-2,2",
-                                      "1,",   ",1",  "1-",        "-1",   "1 ",  "one", "0,99999999999999999999",
-                                      "0--1", "1;2", "0x1",       "1,,2", "+1",  "1.0"};
+  static const char *const lists[] = {
+    "6",    "0-6", "3-9999999", "5-4",     "2,1",   "2,2",    "0-2,2",
+    "1,",   ",1",  "1-",        "-1",      "1 ",    "one",    "0,99999999999999999999",
+    "0--1", "1;2", "0x1",       "1,,2",    "+1",    "1.0",    "1:8",
+    "1:",   "6:1", "1,1:2",     "2:1,1:2", "1:2,2", "1:1,1:2"};
   static const char *const pieces[] = {"0/1", "2/1", "1/0", "1", "1/", "/1", "1/1 ", "1/1000001", "-1/2", "a/b"};
   struct piece piece;
   for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
@@ -138,7 +145,7 @@ static void what_is_done_is_copied(void **state)
   assert_string_equal(from.image.metadata, "pscn:options=a b\n");
   for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) from.image.value[k] = (float)(k + 1);
   memset(to.image.value, 0, sizeof(float) * WIDTH * HEIGHT * 3);
-  atomic_store(&from.tiles.done[1], true);
+  atomic_store(&from.tiles.rows[1], TILE_ROWS);
   assert_true(piece_copy(&from, &to.image));
   const struct rectangle *tile = &from.tiles.tile[1];
   for (size_t y = 0; y < HEIGHT; y++) {
@@ -160,7 +167,7 @@ static void what_is_done_is_copied(void **state)
   write_file(bytes, size);
   assert_int_equal(piece_read(path, true, &from, message), STATUS_OK);
   assert_int_equal(remove(path), 0);
-  for (size_t k = 0; k < TILES; k++) assert_int_equal(atomic_load(&from.tiles.done[k]), k == 1);
+  for (size_t k = 0; k < TILES; k++) assert_int_equal(atomic_load(&from.tiles.rows[k]), k == 1 ? TILE_ROWS : 0);
   assert_memory_equal(from.image.value, to.image.value, sizeof(float) * WIDTH * HEIGHT * 3);
   piece_destroy(&from), piece_destroy(&to);
 }
@@ -201,7 +208,8 @@ static uint64_t fold(uint64_t sum) { return sum ^ sum >> 32; }
 static void the_sum_is_of_all_pixels(void **state)
 {
   (void)state;
-  static const unsigned done[] = {63, 45, 6, 32, 0}; /* bit k: tile k */
+  static const unsigned done[] = {63, 45,          6,     32,
+                                  0,  45 | 7 << 9, 2 << 8}; /* bit k: tile k; k + 8 to k + 10: rows of it */
   const uint64_t start = UINT64_C(0xcbf29ce484222325);
   const struct render_options options = {.width = 100,
                                          .height = 80,
@@ -217,7 +225,8 @@ static void the_sum_is_of_all_pixels(void **state)
     size_t size, length;
     assert_int_equal(piece_create(&options, 1, 1, NULL, 0, &piece), STATUS_OK);
     for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) piece.image.value[k] = (float)(k + 1);
-    for (size_t k = 0; k < piece.tiles.count; k++) atomic_store(&piece.tiles.done[k], done[n] >> k & 1);
+    for (size_t k = 0; k < piece.tiles.count; k++)
+      atomic_store(&piece.tiles.rows[k], done[n] >> k & 1 ? TILE_ROWS : done[n] >> (k + 8) & (TILE_ROWS - 1));
     assert_int_equal(piece_encode(&piece, &channels, 1, &bytes, &size, message), STATUS_OK);
     write_file(bytes, size);
     piece_destroy(&piece);

@@ -125,7 +125,7 @@ static void pixels_are_counted(void **state)
   assert_true(tile_list_pixels(&list, false) == 140 && tile_list_pixels(&list, true) == 0);
   size_t done = 0;
   for (size_t k = 0; k < list.count; k += 2) {
-    atomic_store(&list.done[k], true);
+    atomic_store(&list.rows[k], TILE_ROWS);
     done += list.tile[k].width * list.tile[k].height;
   }
   assert_true(tile_list_pixels(&list, false) == 140 && tile_list_pixels(&list, true) == done);
