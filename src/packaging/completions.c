@@ -23,7 +23,7 @@ static void put_bash_argument(FILE *file, const struct argument *argument)
     [ARGUMENT_PICTURE] = "_pscn_files png exr",
     [ARGUMENT_FOLDER] = "_pscn_folders",
   };
-  if (argument->kind == ARGUMENT_WORDS) fprintf(file, "_pscn_words '%s'", argument->words);
+  if (argument->words[0] != '\0') fprintf(file, "_pscn_words '%s'", argument->words);
   else fputs(calls[argument->kind], file);
 }
 
@@ -51,7 +51,10 @@ static void put_bash_command(FILE *file, const struct command *command)
 void write_bash(FILE *file)
 {
   fputs("# Completion of pscn for bash, made from its tables of options.\n"
-        "_pscn_words() { mapfile -t COMPREPLY < <(compgen -W \"$1\" -- \"$word\"); }\n"
+        "_pscn_words() { # also behind others and a comma\n"
+        "  local before=${word%\"${word##*,}\"}\n"
+        "  mapfile -t COMPREPLY < <(compgen -P \"$before\" -W \"$1\" -- \"${word##*,}\")\n"
+        "}\n"
         "_pscn_folders() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -d -- \"$word\"); }\n"
         "_pscn_files() {\n"
         "  local suffix\n"
@@ -74,6 +77,7 @@ void write_bash(FILE *file)
         "    esac\n"
         "    return\n"
         "  fi\n"
+        "  case $command in *[./]*) command=render ;; esac # `pscn SCENE` renders it\n"
         "  case $command in\n",
         file);
   for (size_t k = 0; command_at(k) != NULL; k++) put_bash_command(file, command_at(k));
@@ -95,6 +99,7 @@ static void put_zsh_argument(FILE *file, const char *what, const struct argument
   fputc(':', file);
   put_quoted(file, what, ":");
   if (argument->kind == ARGUMENT_WORDS) fprintf(file, ":(%s)", argument->words);
+  else if (argument->kind == ARGUMENT_LIST) fprintf(file, ":_values -s , name %s", argument->words);
   else fprintf(file, ":%s", ways[argument->kind]);
 }
 
@@ -140,6 +145,7 @@ void write_zsh(FILE *file)
         "else\n"
         "  shift words\n"
         "  (( CURRENT-- ))\n"
+        "  [[ $words[1] != *[./]* ]] || words[1]=render # `pscn SCENE` renders it\n"
         "  case $words[1] in\n",
         file);
   for (size_t k = 0; command_at(k) != NULL; k++) put_zsh_command(file, command_at(k));
@@ -158,12 +164,17 @@ static void put_fish_argument(FILE *file, const struct argument *argument)
     [ARGUMENT_FOLDER] = " -a '(__fish_complete_directories)'",
   };
   if (argument->kind == ARGUMENT_WORDS) fprintf(file, " -a '%s'", argument->words);
+  else if (argument->kind == ARGUMENT_LIST) fprintf(file, " -a '(__fish_append , %s)'", argument->words);
   else fputs(ways[argument->kind], file);
 }
 
 void write_fish(FILE *file)
 {
   fputs("# Completion of pscn for fish, made from its tables of options.\n"
+        "function __pscn_is\n"
+        "  set -l word (commandline -opc)[2]\n"
+        "  test \"$word\" = $argv[1]; or begin; test $argv[1] = render; and string match -qr '[./]' -- $word; end\n"
+        "end\n"
         "complete -c pscn -f\n"
         "complete -c pscn -n __fish_use_subcommand -l version -d 'show the version'\n"
         "complete -c pscn -n __fish_use_subcommand -k -a '(__fish_complete_suffix .pscn)'\n",
@@ -175,12 +186,12 @@ void write_fish(FILE *file)
     put_quoted(file, command->summary, "\\");
     fputs("'\n", file);
     if (own.kind != ARGUMENT_OTHER) {
-      fprintf(file, "complete -c pscn -n '__fish_seen_subcommand_from %s'", command->name);
+      fprintf(file, "complete -c pscn -n '__pscn_is %s'", command->name);
       put_fish_argument(file, &own);
       fputc('\n', file);
     }
     for (const struct command_option *option = command->options; option->name != NULL; option++) {
-      fprintf(file, "complete -c pscn -n '__fish_seen_subcommand_from %s' -l %s", command->name, option->name);
+      fprintf(file, "complete -c pscn -n '__pscn_is %s' -l %s", command->name, option->name);
       if (option->letter != '\0') fprintf(file, " -s %c", option->letter);
       if (option->argument != NULL) {
         const struct argument argument = argument_of_option(command, option);

@@ -5,8 +5,7 @@
 #include "library/pscn.h"
 #include "packaging/pages.h"
 
-/* Escapes text for roff, so that no line of it is a request. */
-static void put(FILE *file, const char *text, size_t length)
+void manual_put(FILE *file, const char *text, size_t length)
 {
   for (size_t k = 0; k < length; k++) {
     const bool first = k == 0 || text[k - 1] == '\n';
@@ -19,7 +18,7 @@ static void put(FILE *file, const char *text, size_t length)
   }
 }
 
-static void put_text(FILE *file, const char *text) { put(file, text, strlen(text)); }
+static void put_text(FILE *file, const char *text) { manual_put(file, text, strlen(text)); }
 
 /* Writes the paragraphs of the help texts. They are filled, but indented lines stay as they are. */
 static void put_paragraphs(FILE *file, const char *text)
@@ -33,7 +32,7 @@ static void put_paragraphs(FILE *file, const char *text)
     else if (!table && indented) fputs(open ? ".nf\n" : ".PP\n.nf\n", file);
     else if (!open && !indented) fputs(".PP\n", file);
     if (length > 0) {
-      put(file, line, length);
+      manual_put(file, line, length);
       fputc('\n', file);
       open = true;
     }

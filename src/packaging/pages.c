@@ -1,4 +1,4 @@
-/* pages FOLDER: writes there, when pscn is built, all that `cmake --install` installs for shells, editors and man. */
+/* pages FOLDER LANGUAGE HEADER: writes there, when pscn is built, all that `cmake --install` installs for shells, editors and man. */
 #include "packaging/pages.h"
 
 #include <string.h>
@@ -26,7 +26,7 @@ struct argument argument_of_option(const struct command *command, const struct c
   else if (strcmp(option->name, "channels") == 0 && command == &command_render)
     for (int kind = 0; kind < CHANNEL_KINDS; kind++) add_word(&argument, channel_traits((enum channel_kind)kind)->name);
   else if (strcmp(option->argument, "FORMAT") == 0) add_word(&argument, "plain table json");
-  if (argument.words[0] != '\0') argument.kind = ARGUMENT_WORDS;
+  if (argument.words[0] != '\0') argument.kind = strcmp(option->name, "channels") == 0 ? ARGUMENT_LIST : ARGUMENT_WORDS;
   return argument;
 }
 
@@ -37,6 +37,7 @@ struct argument argument_of_command(const struct command *command)
   else if (strcmp(command->arguments, "[COMMAND]") == 0) {
     argument.kind = ARGUMENT_WORDS;
     for (size_t k = 0; command_at(k) != NULL; k++) add_word(&argument, command_at(k)->name);
+    add_word(&argument, "solver channels");
   } else if (command->arguments[0] != '\0') {
     argument.kind = ARGUMENT_PICTURE;
   }
@@ -61,6 +62,17 @@ static bool end(FILE *file, const char *name)
   return false;
 }
 
+/* Makes FOLDER/NAME of the file `from`. */
+static bool convert(const char *folder, const char *name, const char *from, void (*write)(FILE *file, FILE *source))
+{
+  FILE *source = fopen(from, "r"), *file = source == NULL ? NULL : begin(folder, name);
+  if (source == NULL) perror(from);
+  if (file != NULL) write(file, source);
+  const bool done = file != NULL && end(file, name);
+  if (source != NULL) fclose(source);
+  return done;
+}
+
 int main(int argc, char **argv)
 {
   static const struct {
@@ -71,8 +83,8 @@ int main(int argc, char **argv)
                {"pscn.fish", write_fish},
                {"pscn.vim", write_vim},
                {"pscn.tmLanguage.json", write_textmate}};
-  if (argc != 2) return 2;
-  bool done = true;
+  if (argc != 4) return 2;
+  bool done = convert(argv[1], "pscn.5", argv[2], write_language) && convert(argv[1], "pscn.3", argv[3], write_library);
   for (size_t k = 0; k < sizeof pages / sizeof *pages && done; k++) {
     FILE *file = begin(argv[1], pages[k].name);
     if (file == NULL) return 4;

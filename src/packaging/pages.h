@@ -9,6 +9,13 @@
 /* The manual page of a command, or for NULL that of pscn. */
 void write_manual(const struct command *command, FILE *file);
 
+/* Those of the scene language, from docs/language.md, and of the library, from its header. */
+void write_language(FILE *file, FILE *source);
+void write_library(FILE *file, FILE *source);
+
+/* Writes text for roff, so that no line of it is a request. */
+void manual_put(FILE *file, const char *text, size_t length);
+
 /* Completions for the shells. */
 void write_bash(FILE *file);
 void write_zsh(FILE *file);
@@ -18,13 +25,21 @@ void write_fish(FILE *file);
 void write_vim(FILE *file);
 void write_textmate(FILE *file);
 
-/* The argument of an option or a command: a file (of scenes, of pictures), a folder, one of some words, or something
- * that cannot be guessed. */
-enum argument_kind { ARGUMENT_OTHER, ARGUMENT_FILE, ARGUMENT_SCENE, ARGUMENT_PICTURE, ARGUMENT_FOLDER, ARGUMENT_WORDS };
+/* The argument of an option or a command: a file (of scenes, of pictures), a folder, one of some words, a list of them
+ * with commas, or something that cannot be guessed. */
+enum argument_kind {
+  ARGUMENT_OTHER,
+  ARGUMENT_FILE,
+  ARGUMENT_SCENE,
+  ARGUMENT_PICTURE,
+  ARGUMENT_FOLDER,
+  ARGUMENT_WORDS,
+  ARGUMENT_LIST
+};
 
 struct argument {
   enum argument_kind kind;
-  char words[1024]; /* of ARGUMENT_WORDS, separated by blanks */
+  char words[1024]; /* of ARGUMENT_WORDS and ARGUMENT_LIST, separated by blanks */
 };
 
 /* The argument of an option that takes one, and that of the command itself. */

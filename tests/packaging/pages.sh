@@ -25,13 +25,22 @@ for command in $commands; do
   grep -qF "pscn\\-$command" "$share/man/man1/pscn.1" || say "pscn.1 does not name pscn-$command"
 done
 if have groff; then
-  for page in "$share"/man/man1/*.1; do
+  for page in "$share"/man/man?/*.?; do
     warnings=$(groff -man -ww -z -Kutf8 "$page" 2>&1)
     [ -z "$warnings" ] || say "$warnings"
   done
   text=$(groff -man -Tascii -P-c "$share/man/man1/pscn-render.1")
   grep -q "coverage *share of the samples" <<<"$text" || say "the list of channels is not shown as it is"
+  text=$(groff -man -Tascii -P-c "$share/man/man5/pscn.5" | sed 's/.\x08//g')
+  grep -q '^ *camera { }$' <<<"$text" && ! grep -q '[`]\|\*\*\|](' <<<"$text" || say "pscn(5) shows Markdown"
+  diff <(groff -man -Tutf8 -Kutf8 -P-c "$share/man/man3/pscn.3" | sed -n '/pscn: exact/,$ s/^       //p' | grep -v '^$') \
+    <(grep -v '^$' "$folder/include/pscn.h") >/dev/null || say "pscn(3) is not the header"
 fi
+
+# Scenes and examples, which run where they are.
+(cd "$folder" && "$PSCN" render "$share/pscn/scenes/dome.pscn" --size 4x3 -q -o dome.png && [ -x "$share/doc/pscn/examples/library/depth_map.py" ] &&
+  [ "$("$share/doc/pscn/examples/generate.sh" hair 10 | grep -c bicubic_patch)" = 10 ] && [ -s "$share/doc/pscn/docs/language.md" ] && rm dome.png) ||
+  say "scenes, examples or documents are not installed"
 
 # bash: the program takes what is offered after a line.
 . "$share/bash-completion/completions/pscn"
@@ -42,6 +51,9 @@ for command in $commands; do
 done
 [ "$(offer pscn render --solver ab)" = aberth ] || say "bash is offered no solver"
 [ "$(offer pscn help ren)" = render ] || say "bash is offered no command behind help"
+[ "$(offer pscn help sol)" = solver ] || say "bash is offered no topic behind help"
+[ "$(offer pscn render --channels rgb,dep)" = rgb,depth ] || say "bash is offered no channel behind a comma"
+diff <(offer pscn bowl.pscn --) <(options_of render) || say "bash is offered no options behind a scene"
 (cd "$folder" && touch one.pscn two.png three.txt && mkdir four &&
   diff <(offer pscn trace '' | tr '\n' ' ') <(echo -n "bin four include lib one.pscn share " | tr '\n' ' ') &&
   diff <(offer pscn compare t) <(echo two.png) && diff <(offer pscn render -o t) <(printf 'three.txt\ntwo.png\n') &&
@@ -53,15 +65,17 @@ if have fish; then
     diff <(offer "pscn $command --" | grep -o -e '^--[a-z-]*') <(options_of "$command") || say "fish is offered other options of $command"
   done
   [ "$(offer 'pscn render --solver ab')" = aberth ] || say "fish is offered no solver"
+  diff <(offer 'pscn bowl.pscn --' | grep -o -e '^--[a-z-]*') <(options_of render) || say "fish is offered no options behind a scene"
+  [ "$(offer 'pscn render --channels rgb,dep')" = rgb,depth ] || say "fish is offered no channel behind a comma"
   [ "$(offer 'pscn tra')" = trace ] || say "fish is offered no command"
 fi
 if have zsh; then
   zsh -n "$share/zsh/vendor-completions/_pscn" || say "zsh does not read its completions"
-  for command in $commands; do
+  for command in $commands bowl.pscn; do
     # Its arguments for _arguments, as words.
     told=$(zsh -fc "_arguments() { print -rl -- \"\$@\"; }; words=(pscn $command '') CURRENT=3
       _describe() { :; }; . $share/zsh/vendor-completions/_pscn" | grep -o -e '^\(([^)]*)\)\?--[a-z-]*' | sed 's/.*)//' | sort)
-    diff <(echo "$told") <(options_of "$command") || say "zsh is offered other options of $command"
+    diff <(echo "$told") <(options_of "${command/bowl.pscn/render}") || say "zsh is offered other options of $command"
   done
 fi
 
