@@ -88,6 +88,8 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
     said[k] = (struct chart_point){.family = sweep[k].family, .ours = true, .options = sweep[k].options};
     method_text(&sweep[k].options, said[k].name, sizeof said[k].name);
     if (chart->point_count + k == 0) strcpy(said[k].label, "default");
+    else if (chart->request->solver_count > 0)
+      snprintf(said[k].label, sizeof said[k].label, "%s", sweep[k].options.roots.solver->name);
   }
   if (status == STATUS_OK) status = chart_measure(chart, count, runners, said, yard);
   for (int kind = 0; kind < RAY_KINDS && status == STATUS_OK; kind++)
@@ -109,11 +111,15 @@ static enum status sweep_solvers(struct chart *chart, const struct sweep_point *
 
 /* ---- the work ---- */
 
+static size_t sweep_count(const struct chart_request *request)
+{
+  return request->solver_count > 0 ? 1 + request->solver_count : point_sweep(request->quick, NULL);
+}
+
 static enum status make_room(struct chart *chart)
 {
   chart->arena = arena_create();
-  const size_t sweep = point_sweep(chart->request->quick, NULL);
-  chart->point_room = sweep + CHART_PEER_POINTS;
+  chart->point_room = sweep_count(chart->request) + CHART_PEER_POINTS;
   chart->points = chart->arena == NULL ? NULL : arena_alloc(chart->arena, chart->point_room, sizeof *chart->points);
   return chart->points == NULL ? STATUS_LIMIT : STATUS_OK;
 }
@@ -130,14 +136,16 @@ static void level_times(struct chart *chart)
 
 static enum status measure(struct chart *chart)
 {
-  const size_t count = point_sweep(chart->request->quick, NULL);
+  const struct chart_request *request = chart->request;
+  const size_t count = sweep_count(request);
   struct sweep_point *sweep = arena_alloc(chart->arena, count, sizeof *sweep);
   if (sweep == NULL) return STATUS_LIMIT;
   for (int kind = 0; kind < RAY_KINDS; kind++) {
     chart->yard[kind] = arena_alloc(chart->arena, count / CHART_BATCH + 1, sizeof *chart->yard[kind]);
     if (chart->yard[kind] == NULL) return STATUS_LIMIT;
   }
-  (void)point_sweep(chart->request->quick, sweep);
+  if (request->solver_count > 0) point_choice(request->solvers, request->solver_count, sweep);
+  else (void)point_sweep(request->quick, sweep);
   scene_override_solver(chart->scene, &sweep[0].options);
   enum status status = prepare_rays(chart, &sweep[0].options);
   if (status == STATUS_OK) status = find_truths(chart);

@@ -20,6 +20,8 @@ struct chart_request {
   double timeout;           /* seconds that a run of POV-Ray may take */
   size_t memory;            /* bytes that it may take */
   bool quick, peers;        /* fewer points; with Embree and POV-Ray */
+  struct method *solvers;   /* instead of the usual points: these, besides the default; solver_count of them */
+  size_t solver_count;
 };
 
 /* The names of the files that chart_scene writes, or removes if it has none. */

@@ -3,7 +3,7 @@ set terminal svg size 900,700 enhanced font 'sans-serif,13' background '#ffffff'
 set output 'figure.svg'
 set logscale xy
 set format xy '10^{%T}'
-set xlabel 'error of T, relative: 99 % of the rays (a lost, invented or wrong hit counts as 1)'
+set xlabel 'relative error of the distance T: 99 % of the rays (a lost, invented or wrong hit counts as 1)'
 set ylabel 'ns a camera ray, one thread'
 set grid lc rgb '#dddddd'
 set tics scale 0.7

@@ -6,8 +6,8 @@
 
 const char *family_name(enum family family)
 {
-  static const char *const NAMES[FAMILIES] = {"bernstein", "newton",       "laguerre", "aberth",
-                                              "paper",     "plain-newton", "embree",   "povray"};
+  static const char *const NAMES[FAMILIES] = {"bernstein", "newton",       "laguerre", "aberth", "paper",
+                                              "other",     "plain-newton", "embree",   "povray"};
   return NAMES[family];
 }
 
@@ -61,13 +61,25 @@ static void sweep_solver(struct sweep *sweep, const struct solver *solver, enum 
   }
 }
 
+static const struct {
+  const char *name;
+  enum family family;
+} SOLVERS[] = {
+  {"bernstein", FAMILY_DEFAULT}, {"newton", FAMILY_NEWTON}, {"laguerre", FAMILY_LAGUERRE}, {"aberth", FAMILY_ABERTH}};
+
+void point_choice(const struct method solvers[], size_t count, struct sweep_point out[])
+{
+  out[0].family = FAMILY_DEFAULT;
+  method_default(solver_at(0), &out[0].options);
+  for (size_t k = 0; k < count; k++) {
+    out[1 + k] = (struct sweep_point){FAMILY_OTHER, solvers[k]};
+    for (size_t n = 0; n < sizeof SOLVERS / sizeof SOLVERS[0]; n++)
+      if (strcmp(solvers[k].roots.solver->name, SOLVERS[n].name) == 0) out[1 + k].family = SOLVERS[n].family;
+  }
+}
+
 size_t point_sweep(bool quick, struct sweep_point *out)
 {
-  static const struct {
-    const char *name;
-    enum family family;
-  } SOLVERS[] = {
-    {"bernstein", FAMILY_DEFAULT}, {"newton", FAMILY_NEWTON}, {"laguerre", FAMILY_LAGUERRE}, {"aberth", FAMILY_ABERTH}};
   struct sweep sweep = {.out = out};
   (void)add(&sweep, solver_at(0), FAMILY_DEFAULT);
   for (size_t k = 0; k < sizeof SOLVERS / sizeof SOLVERS[0]; k++) {

@@ -10,6 +10,7 @@ enum family {
   FAMILY_LAGUERRE,
   FAMILY_ABERTH,
   FAMILY_PAPER, /* the paper's own form of its three solvers */
+  FAMILY_OTHER, /* durand_kerner */
   FAMILY_PLAIN_NEWTON,
   FAMILY_EMBREE,
   FAMILY_POVRAY,
@@ -39,6 +40,9 @@ struct sweep_point {
   struct method options;
 };
 size_t point_sweep(bool quick, struct sweep_point *out);
+
+/* The default, and then these solvers. */
+void point_choice(const struct method solvers[], size_t count, struct sweep_point out[]);
 
 /* Scales the times of every point to those at which the yardstick takes yard[kind], its median of the whole run: the
  * median becomes ratio x yard[kind]. Whatever slows the machine for a while also slows the yardstick of the same

@@ -30,6 +30,7 @@ static const struct look {
   [FAMILY_LAGUERRE] = {"laguerre", "#2f855a", 11, 10},
   [FAMILY_ABERTH] = {"aberth", "#b7791f", 13, 12},
   [FAMILY_PAPER] = {"as in the paper", "#718096", 15, 14},
+  [FAMILY_OTHER] = {"durand\\\\_kerner", "#9d174d", 15, 14},
   [FAMILY_PLAIN_NEWTON] = {"plain 2-D Newton", "#000000", 7, 6},
   [FAMILY_EMBREE] = {"Embree (triangles a side)", "#6b46c1", 5, 4},
   [FAMILY_POVRAY] = {"POV-Ray (u\\\\_steps)", "#0891b2", 5, 4},
@@ -171,7 +172,6 @@ static json_t *front_value(const struct chart *chart)
 static json_t *make_values(const struct chart *chart)
 {
   const struct chart_request *request = chart->request;
-  const char *slash = strrchr(request->path, '/');
   json_t *points = json_array(), *first = json_array(), *notes = json_array();
   for (size_t k = 0; k < chart->point_count; k++) {
     points = json_append(points, point_value(chart, k));
@@ -179,15 +179,15 @@ static json_t *make_values(const struct chart *chart)
   }
   for (size_t k = 0; k < chart->note_count; k++)
     notes = json_append(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k])));
-  json_t *root = json_pack(
-    "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:o,s:[{s:b,s:o},{s:b,s:o}]}", "scene",
-    page_of_text(slash == NULL ? request->path : slash + 1), "width", json_count(request->width), "height",
-    json_count(request->height), "rays", json_count(chart->rays[RAYS_CAMERA].count), "shadows",
-    json_count(chart->rays[RAYS_SHADOW].count), "rounds", json_count(chart->rounds), "undecided",
-    json_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH, "strip_height", (int)STRIP_HEIGHT,
-    "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]), "yard_most",
-    page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes, "first", first, "points", points,
-    "sets", sets_value(chart, points), "tables", "all", 0, "points", first, "all", 1, "points", points);
+  json_t *root = json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:o,s:[{s:b,s:o},{s:b,s:o}]}",
+                           "scene", page_of_file(request->path), "width", json_count(request->width), "height",
+                           json_count(request->height), "rays", json_count(chart->rays[RAYS_CAMERA].count), "shadows",
+                           json_count(chart->rays[RAYS_SHADOW].count), "rounds", json_count(chart->rounds), "undecided",
+                           json_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH,
+                           "strip_height", (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]),
+                           "yard_most", page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes,
+                           "first", first, "points", points, "sets", sets_value(chart, points), "tables", "all", 0,
+                           "points", first, "all", 1, "points", points);
   return json_join(json_join(root, front_value(chart)), page_of_head(request->command_line));
 }
 

@@ -27,10 +27,10 @@ set logscale x
 set format x '10^{%T}'
 set format y '%g'
 set xtics auto
-set offsets 0, 0, graph 0.1, 0
+set offsets 0, 0, graph 0.4, 0
 set xlabel 'relative; pscn has none to speak of'
 set yrange [0:*]
-set key below
+set key top right
 plot $rows using 6:7 with lines lw 1.5 lc rgb '#0891b2' title 'POV-Ray, u\_steps', \
   '' using 6:7:8 with labels hypertext point pt 7 ps 0.6 lc rgb '#0891b2' notitle, \
   '' using 6:7:1 with labels offset 0.8,0.6 tc rgb '#0891b2' notitle, \

@@ -197,6 +197,7 @@ static enum status make_page(struct results *results, const char *verdict, struc
   const struct check_request *request = check->request;
   const struct text_buffer *theirs = &check->file[1 + 2 * (check->row_count - 1)];
   json_t *root = json_join(check_json(check), page_of_head(request->command_line));
+  set(results, root, "name", page_of_file(request->path));
   set(results, root, "verdict", json_string(verdict));
   set(results, root, "width", json_count(request->width));
   set(results, root, "height", json_count(request->height));

@@ -4,12 +4,14 @@
 #include <stdlib.h>
 
 #include "chart/measure.h"
-#include "page/povray.h"
 #include "command/command.h"
 #include "command/output.h"
 #include "command/scene_file.h"
+#include "language/language.h"
+#include "page/povray.h"
 
 enum { MAX_RAYS = 1 << 22 };
+enum { OPTION_SOLVER = 1 };
 
 /* The command line's request. */
 struct request {
@@ -25,6 +27,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TEXT("output", 'o', folder.path, "folder of the results; default: SCENE's name and -chart", "DIR"),
   SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
   SCENE_READING_OPTIONS,
+  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "this one and the default only; may be given several times", "TEXT"),
   COMMAND_INTEGER("rays", chart.rays, 1, MAX_RAYS, "number of rays",
                   "about so many camera rays; default 2048, 1024 with --quick", "N"),
   COMMAND_INTEGER("rounds", chart.rounds, 1, MEASURE_MAX_ROUNDS, "number of rounds",
@@ -37,6 +40,19 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
+
+/* --solver adds to a list. */
+static enum status take_option(const struct command *command, void *context, int val, const char *argument)
+{
+  struct request *request = context;
+  struct chart_request *chart = &request->chart;
+  if (val != OPTION_SOLVER) return scene_request_take(command, &request->scene, val, argument);
+  struct diagnostics diagnostics = stderr_diagnostics(command);
+  struct method *solvers = realloc(chart->solvers, (chart->solver_count + 1) * sizeof *solvers);
+  if (solvers == NULL) return command_out_of_memory(command);
+  chart->solvers = solvers;
+  return language_parse_solver(argument, &diagnostics, &solvers[chart->solver_count++]);
+}
 
 static enum status work(void *context, const char *folder, struct text_buffer *out_text)
 {
@@ -64,7 +80,7 @@ static enum status run(const struct command *command, int argc, const char **arg
                             .folder = {.suffix = "-chart", .page = "chart.html"}};
   struct command_line line;
   char *command_line = command_line_text(argc, argv);
-  enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
+  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {
     request.chart.path = request.scene.path = request.folder.scene = line.positional[0];
     request.chart.command_line = command_line == NULL ? "" : command_line;
@@ -72,6 +88,7 @@ static enum status run(const struct command *command, int argc, const char **arg
     status = output_folder_fill(command, &request.folder, request.scene.quiet, work, &request);
   }
   free(command_line);
+  free(request.chart.solvers);
   return status;
 }
 
@@ -86,7 +103,8 @@ const struct command command_chart = {
     "where its module is built; and by POV-Ray, where it is installed. Each is timed in turns on one thread, and\n"
     "judged by a reference in quadruple precision that shares nothing with them. DIR receives chart.csv with every\n"
     "point, chart.svg with the Pareto front (drawn by gnuplot), and chart.html, which needs nothing beside itself.\n"
-    "Standard output has the front. Solver statements of the scene mean nothing here.\n",
+    "Standard output has the front. Solver statements of the scene mean nothing here; with --solver only the solvers\n"
+    "that it names and the default are charted.\n",
   .options = OPTIONS,
   .run = run,
 };

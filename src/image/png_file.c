@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "image/srgb.h"
 
@@ -68,7 +67,7 @@ static void flush_nothing(png_structp png) { (void)png; }
 
 /* ---- the file ---- */
 
-/* A line of metadata. libpng does not change the texts. */
+/* A line of metadata. The date has a chunk of its own. libpng does not change the texts. */
 static void put_text(png_structp png, png_infop info, const char *name, const char *value)
 {
   union {
@@ -76,7 +75,11 @@ static void put_text(png_structp png, png_infop info, const char *name, const ch
     char *taken;
   } key = {name}, text = {value};
   const png_text line = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = key.taken, .text = text.taken};
-  png_set_text(png, info, &line, 1);
+  png_time date;
+  if (strcmp(name, "DateTime") != 0) png_set_text(png, info, &line, 1);
+  else if (sscanf(value, "%hu:%hhu:%hhu %hhu:%hhu:%hhu", &date.year, &date.month, &date.day, &date.hour, &date.minute,
+                  &date.second) == 6)
+    png_set_tIME(png, info, &date);
 }
 
 /* All before the pixels: the chunks that OpenImageIO 2.4 writes, so that its readers find the same. */
@@ -84,7 +87,6 @@ static void put_head(png_structp png, png_infop info, const struct png_file *fil
 {
   static const int types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA};
   const struct image_encoding *encoding = file->encoding;
-  png_time now;
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   png_set_IHDR(png, info, (png_uint_32)file->image->width, (png_uint_32)file->image->height, encoding->bits,
                types[file->image->channel_count - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
@@ -92,12 +94,9 @@ static void put_head(png_structp png, png_infop info, const struct png_file *fil
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_NO_FILTERS);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
   png_set_oFFs(png, info, 0, 0, PNG_OFFSET_PIXEL);
-  png_convert_from_time_t(&now, time(NULL));
-  png_set_tIME(png, info, &now);
   put_text(png, info, "oiio:ColorSpace", "sRGB");
   for (size_t k = 0; k < encoding->attribute_count; k++)
-    if (strcmp(encoding->attributes[k].name, "DateTime") != 0) /* it is the chunk tIME */
-      put_text(png, info, encoding->attributes[k].name, encoding->attributes[k].text);
+    put_text(png, info, encoding->attributes[k].name, encoding->attributes[k].text);
   png_write_info(png, info);
 }
 

@@ -96,6 +96,12 @@ static void find_machine(char *out, size_t size)
   if (file != NULL) (void)fclose(file);
 }
 
+json_t *page_of_file(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  return page_of_text(slash == NULL ? path : slash + 1);
+}
+
 json_t *page_of_head(const char *command_line)
 {
   char machine[256], date[64] = "";

@@ -19,6 +19,9 @@ enum status page_write(const struct listener *listener, size_t count, char (*pat
 json_t *page_of_number(double value);
 json_t *page_of_text(const char *text);
 
+/* The name of a file without its folders. */
+json_t *page_of_file(const char *path);
+
 /* The values common to all pages: version, date, machine, command (the command line), and `head`, the first lines. */
 json_t *page_of_head(const char *command_line);
 

@@ -25,6 +25,11 @@ LC_ALL=C awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
   }' out/chart.csv
 grep -c '<table>' out/chart.html
 
+# The solvers that are asked for, and the default.
+chart "$scene" $small --no-peers --quiet --solver 'durand_kerner { polish off }' --solver 'aberth { split 1 }' -o chosen
+cut -d, -f1,2 chosen/chart.csv
+chart "$scene" $small --solver nothing -o chosen
+
 # Missing peers are reported, and are no error. The page quotes the command line for a shell.
 try pscn chart "$scene" $small --povray nowhere/povray -I '' -o "out '2'" 2>&1 | grep -e '^POV-Ray' -e '^exit'
 sed -n "s/&#39;/'/g; s/.*\(pscn chart [^<]*\).*/\1/p" "out '2'/chart.html"
