@@ -23,7 +23,7 @@ enum {
 
 static void tell(void *context, const char *text, size_t length)
 {
-  assert(length > 0 && text[length - 1] == '\n' && !memchr(text, '\0', length));
+  assert(length > 0 && text[length - 1] == '\n' && !memchr(text, '\0', length) && !memchr(text, '\x1b', length));
   ++*(size_t *)context;
 }
 
@@ -60,6 +60,7 @@ static struct scene *load(const char *text, size_t length)
   struct scene *scene = NULL;
   const enum status status = language_load_text("<fuzz>", text, length, &settings, &diagnostics, &scene);
   assert((status == STATUS_OK) == (scene != NULL) && (status == STATUS_OK) == (diagnostics.error_count == 0));
+  assert(status == STATUS_OK || told > 0);
   assert(status == STATUS_OK || status == STATUS_INPUT || status == STATUS_LIMIT ||
          (status == STATUS_USAGE && settings.solver_text != NULL));
   return scene;
