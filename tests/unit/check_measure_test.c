@@ -241,117 +241,6 @@ static void the_map_shows_them(void **state)
   free_check(&check);
 }
 
-enum { EDGE_WIDTH = 5, EDGE_HEIGHT = 3 };
-
-static struct check_sight sights[EDGE_WIDTH * EDGE_HEIGHT];
-
-/* The pixels show a surface, with z and slope at each column, the same in all rows. */
-static struct check surface_of(const double z[EDGE_WIDTH], const double slope[EDGE_WIDTH])
-{
-  struct check check = check_of(EDGE_WIDTH, EDGE_HEIGHT, 0);
-  for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) {
-    const size_t x = k % EDGE_WIDTH;
-    const double point[3] = {0.1 * (double)x, 0.1 * (double)(k / EDGE_WIDTH), z[x]};
-    const double length = sqrt(slope[x] * slope[x] + 1), normal[3] = {slope[x] / length, 0, -1 / length};
-    sights[k] = (struct check_sight){.hit = {.patch = 0}};
-    memcpy(sights[k].hit.point, point, sizeof point);
-    memcpy(sights[k].hit.normal, normal, sizeof normal);
-    sights[k].distance = sqrt(point[0] * point[0] + point[1] * point[1] + point[2] * point[2]);
-  }
-  return check;
-}
-
-static void find_edges(struct check *check)
-{
-  for (size_t y = 0; y < EDGE_HEIGHT; y++) check_find_edges(check, sights, y);
-}
-
-/* Whether this edge lies on both sides of the line between the second column and the third, and nowhere else. */
-static bool only_between(struct check *check, enum check_edge edge)
-{
-  bool right = true;
-  find_edges(check);
-  for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) {
-    const size_t x = k % EDGE_WIDTH;
-    right = right && pixels[k].edge == (x == 1 || x == 2 ? edge : CHECK_EDGE_NONE);
-  }
-  free_check(check);
-  return right;
-}
-
-/* A roof that falls by `degrees` on each side of its ridge, between the second column and the third. */
-static struct check roof_of(double degrees)
-{
-  const double slope = tan(degrees * acos(-1.0) / 180), tilt[] = {-slope, -slope, slope, slope, slope};
-  double z[EDGE_WIDTH];
-  for (int x = 0; x < EDGE_WIDTH; x++) z[x] = 10 + 0.1 * slope * fabs(x - 1.5);
-  return surface_of(z, tilt);
-}
-
-static void edges_are_told_apart(void **state)
-{
-  (void)state;
-  static const double flat[EDGE_WIDTH] = {10, 10, 10, 10, 10}, step[EDGE_WIDTH] = {10, 10, 12, 12, 12},
-                      none[EDGE_WIDTH];
-  struct check check = surface_of(flat, none);
-  assert_true(only_between(&check, CHECK_EDGE_NONE));
-  check = surface_of(step, none);
-  assert_true(only_between(&check, CHECK_EDGE_SILHOUETTE));
-  check = roof_of(12.5);
-  assert_true(only_between(&check, CHECK_EDGE_NONE));
-  check = roof_of(14);
-  assert_true(only_between(&check, CHECK_EDGE_CREASE));
-  check = roof_of(19);
-  assert_true(only_between(&check, CHECK_EDGE_CREASE));
-  check = roof_of(21);
-  assert_true(only_between(&check, CHECK_EDGE_SILHOUETTE));
-
-  check = surface_of(flat, none);
-  for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) sights[k].lights = k % EDGE_WIDTH < 2 ? 5 : 4;
-  assert_true(only_between(&check, CHECK_EDGE_SHADOW));
-
-  /* two patches of one texture, then of two textures */
-  struct scene_patch patches[2] = {{.texture = 1}, {.texture = 1}};
-  scene.patches = patches;
-  for (uint32_t texture = 1; texture <= 2; texture++) {
-    patches[1].texture = texture;
-    check = surface_of(flat, none);
-    for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) sights[k].hit.patch = k % EDGE_WIDTH < 2;
-    assert_true(only_between(&check, texture == 1 ? CHECK_EDGE_NONE : CHECK_EDGE_CREASE));
-  }
-  scene.patches = NULL;
-
-  /* a plane seen obliquely, and another one so far behind it that it could be the first one's continuation */
-  static const double oblique[EDGE_WIDTH] = {10, 10.32, 10.64, 10.96, 11.28}, slope[] = {3.2, 3.2, 3.2, 3.2, 3.2};
-  static const double behind[EDGE_WIDTH] = {10, 10.32, 20, 20.32, 20.64};
-  check = surface_of(oblique, slope);
-  assert_true(only_between(&check, CHECK_EDGE_NONE));
-  check = surface_of(behind, slope);
-  assert_true(only_between(&check, CHECK_EDGE_SILHOUETTE));
-}
-
-/* They surround a miss, its corners included, and outrank another edge there. */
-static void silhouettes_are_round_a_miss(void **state)
-{
-  (void)state;
-  static const double flat[EDGE_WIDTH] = {10, 10, 10, 10, 10}, none[EDGE_WIDTH];
-  for (size_t miss = 0; miss < EDGE_WIDTH * EDGE_HEIGHT; miss++) {
-    struct check check = surface_of(flat, none);
-    for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) sights[k].lights = k == miss ? 0 : k % 2;
-    sights[miss].hit.patch = HIT_NONE;
-    find_edges(&check);
-    for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) {
-      const size_t x = k % EDGE_WIDTH, y = k / EDGE_WIDTH, u = miss % EDGE_WIDTH, v = miss / EDGE_WIDTH;
-      const bool beside = x + 1 >= u && x <= u + 1 && y + 1 >= v && y <= v + 1;
-      assert_int_equal(pixels[k].edge, beside ? CHECK_EDGE_SILHOUETTE : CHECK_EDGE_SHADOW);
-    }
-    free_check(&check);
-  }
-  struct check check = surface_of(flat, none);
-  for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) sights[k].hit.patch = HIT_NONE;
-  assert_true(only_between(&check, CHECK_EDGE_NONE));
-}
-
 /* The rectangle x0 <= x <= x1, |y| <= y1 at depth z. */
 static struct scene_patch rectangle(double x0, double x1, double y1, double z)
 {
@@ -416,7 +305,6 @@ int main(void)
     cmocka_unit_test(differences_are_counted), cmocka_unit_test(hits_of_one_alone_are_counted),
     cmocka_unit_test(own_text_is_as_written),  cmocka_unit_test(distances_are_those_of_a_grid),
     cmocka_unit_test(the_worst_are_apart),     cmocka_unit_test(the_map_shows_them),
-    cmocka_unit_test(edges_are_told_apart),    cmocka_unit_test(silhouettes_are_round_a_miss),
     cmocka_unit_test(our_pixels_are_known)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* What two pixels beside each other lie on, given what is known of their centres; and whether a picture is within its
  * limits. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "check/measure.h"
@@ -23,7 +24,8 @@ static enum check_edge between(struct check_sight a, struct check_sight b)
   for (int way = 0; way < 4; way++) {
     const struct check_sight window[2] = {way % 2 ? b : a, way % 2 ? a : b};
     struct check_pixel pixels[2] = {0};
-    struct scene scene = {.has_camera = true};
+    struct scene_patch patches[] = {{.texture = 0}, {.texture = 0}, {.texture = 1}};
+    struct scene scene = {.has_camera = true, .patches = patches};
     const struct check_request request = {.width = way < 2 ? 2 : 1, .height = way < 2 ? 1 : 2};
     struct check check = {.request = &request, .scene = &scene, .ours = {.pixel = pixels}};
     for (size_t y = 0; y < request.height; y++) check_find_edges(&check, window, y);
@@ -61,6 +63,13 @@ static void what_stands_before_another_is_a_silhouette(void **state)
   assert_int_equal(between(sight(0, 0, 5, 1, 0, 0.02), sight(0.01, 0, 6, 1, 0, 0.3)), CHECK_EDGE_SILHOUETTE);
 }
 
+/* The edge at the ridge of a roof that falls by `degrees` on each side. */
+static enum check_edge ridge(double degrees)
+{
+  const double fall = degrees * acos(-1.0) / 180;
+  return between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 5 + 0.01 * tan(fall), tan(2 * fall), 0, -1));
+}
+
 static void shadows_and_creases_are_told_apart(void **state)
 {
   (void)state;
@@ -71,6 +80,40 @@ static void shadows_and_creases_are_told_apart(void **state)
   assert_int_equal(between(lit, turned), CHECK_EDGE_CREASE);
   dark.hit = turned.hit, dark.distance = turned.distance;
   assert_int_equal(between(lit, dark), CHECK_EDGE_SHADOW);
+  assert_int_equal(ridge(12.5), CHECK_EDGE_NONE);
+  assert_int_equal(ridge(14), CHECK_EDGE_CREASE);
+  assert_int_equal(ridge(19), CHECK_EDGE_CREASE);
+  assert_int_equal(ridge(21), CHECK_EDGE_SILHOUETTE);
+  struct check_sight other = sight(0.01, 0, 5, 0, 0, -1); /* on another patch, of the same texture, then of another */
+  other.hit.patch = 1;
+  assert_int_equal(between(lit, other), CHECK_EDGE_NONE);
+  other.hit.patch = 2;
+  assert_int_equal(between(lit, other), CHECK_EDGE_CREASE);
+}
+
+/* Silhouettes surround a miss, its corners included, and outrank another edge there. */
+static void a_miss_has_edges_all_round(void **state)
+{
+  (void)state;
+  enum { WIDTH = 5, HEIGHT = 3 };
+  for (size_t miss = 0; miss < WIDTH * HEIGHT; miss++) {
+    struct check_sight sights[WIDTH * HEIGHT];
+    struct check_pixel pixels[WIDTH * HEIGHT] = {0};
+    struct scene scene = {.has_camera = true};
+    const struct check_request request = {.width = WIDTH, .height = HEIGHT};
+    struct check check = {.request = &request, .scene = &scene, .ours = {.pixel = pixels}};
+    for (size_t k = 0; k < WIDTH * HEIGHT; k++) {
+      sights[k] = sight(0.01 * (double)(k % WIDTH), 0.01 * (double)(k / WIDTH), 5, 0, 0, -1);
+      sights[k].lights = k % 2;
+    }
+    sights[miss].hit.patch = HIT_NONE;
+    for (size_t y = 0; y < HEIGHT; y++) check_find_edges(&check, sights, y);
+    for (size_t k = 0; k < WIDTH * HEIGHT; k++) {
+      const bool near = labs((long)(k % WIDTH) - (long)(miss % WIDTH)) <= 1 &&
+                        labs((long)(k / WIDTH) - (long)(miss / WIDTH)) <= 1;
+      assert_int_equal(pixels[k].edge, near ? CHECK_EDGE_SILHOUETTE : CHECK_EDGE_SHADOW);
+    }
+  }
 }
 
 /* Of 1,000 pixels. Each limit is exceeded by the least possible amount, and not by its own value. */
@@ -98,6 +141,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(one_surface_has_no_edge), cmocka_unit_test(what_stands_before_another_is_a_silhouette),
-    cmocka_unit_test(shadows_and_creases_are_told_apart), cmocka_unit_test(limits_are_what_they_are)};
+    cmocka_unit_test(shadows_and_creases_are_told_apart), cmocka_unit_test(a_miss_has_edges_all_round),
+    cmocka_unit_test(limits_are_what_they_are)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
