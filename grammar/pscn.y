@@ -80,10 +80,10 @@ static void pscn_error(struct language *language, const char *message)
 %token <place> COLOR "color" RGB "rgb" X "x" Y "y" Z "z" RED "red" GREEN "green" BLUE "blue" PI "pi"
 %token <place> IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height" VERSION_WORD "version"
 %token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use makes POV-Ray warn */
-%token <place> RGBF "rgbf" RGBFT "rgbft" FILTER "filter"
+%token <place> RGBF "rgbf" RGBFT "rgbft" SRGB "srgb" SRGBF "srgbf" SRGBFT "srgbft" FILTER "filter"
 %token <place> SOLVER "solver"
 
-%type <value> expression value colour shade quantity four five
+%type <value> expression value colour spaced shade quantity four five
 %type <index> part
 %type <place> solver method modifier
 %type <texture> texture_block pigment_block finish_block part_block surface
@@ -187,23 +187,27 @@ comma: %empty %prec ITEM | ',';
 /* A plain vector or number is a colour wherever POV-Ray takes it for one. */
 colour:
     expression %prec ITEM
-  | RGB expression %prec ITEM                  { $$ = value_rgb(language, $2, span_join($1, $2->place)); }
-  | RGBF expression %prec ITEM                 { $$ = value_rgbft(language, $2, 4, span_join($1, $2->place)); }
-  | RGBFT expression %prec ITEM                { $$ = value_rgbft(language, $2, 5, span_join($1, $2->place)); }
-  | RGBF four                                  { $$ = value_placed($2, span_join($1, $2->place)); }
-  | RGBFT five                                 { $$ = value_placed($2, span_join($1, $2->place)); }
   | COLOR expression %prec ITEM                { $$ = value_color(language, $2, span_join($1, $2->place)); }
-  | COLOR RGB expression %prec ITEM            { $$ = value_rgb(language, $3, span_join($1, $3->place)); }
-  | COLOR RGBF expression %prec ITEM           { $$ = value_rgbft(language, $3, 4, span_join($1, $3->place)); }
-  | COLOR RGBFT expression %prec ITEM          { $$ = value_rgbft(language, $3, 5, span_join($1, $3->place)); }
-  | COLOR RGBF four                            { $$ = value_placed($3, span_join($1, $3->place)); }
-  | COLOR RGBFT five                           { $$ = value_placed($3, span_join($1, $3->place)); }
+  | spaced
+  | COLOR spaced                               { $$ = value_placed($2, span_join($1, $2->place)); }
   | expression part expression %prec ITEM
                                                { $$ = value_bare_part(language, $1, $2, $3, span_join($1->place, $3->place)); }
   | part expression %prec ITEM                 { $$ = value_part(language, NULL, $1, $2, $2->place); }
   | COLOR part expression %prec ITEM           { $$ = value_part(language, NULL, $2, $3, span_join($1, $3->place)); }
   | colour part expression %prec ITEM
                                                { $$ = value_part(language, $1, $2, $3, span_join($1->place, $3->place)); }
+  ;
+spaced:
+    RGB expression %prec ITEM                  { $$ = value_rgb(language, $2, span_join($1, $2->place)); }
+  | RGBF expression %prec ITEM                 { $$ = value_rgbft(language, $2, 4, span_join($1, $2->place)); }
+  | RGBFT expression %prec ITEM                { $$ = value_rgbft(language, $2, 5, span_join($1, $2->place)); }
+  | RGBF four                                  { $$ = value_placed($2, span_join($1, $2->place)); }
+  | RGBFT five                                 { $$ = value_placed($2, span_join($1, $2->place)); }
+  | SRGB expression %prec ITEM                 { $$ = value_srgb(language, $1, value_rgb(language, $2, $2->place)); }
+  | SRGBF expression %prec ITEM                { $$ = value_srgb(language, $1, value_rgbft(language, $2, 4, $2->place)); }
+  | SRGBFT expression %prec ITEM               { $$ = value_srgb(language, $1, value_rgbft(language, $2, 5, $2->place)); }
+  | SRGBF four                                 { $$ = value_srgb(language, $1, $2); }
+  | SRGBFT five                                { $$ = value_srgb(language, $1, $2); }
   ;
 part: RED { $$ = 0; } | GREEN { $$ = 1; } | BLUE { $$ = 2; } | FILTER { $$ = 3; };
 four: '<' expression comma expression comma expression comma expression comma '>'
@@ -215,7 +219,8 @@ five: '<' expression comma expression comma expression comma expression comma ex
 
 global_items: %empty | global_items global_item;
 global_item:
-    ASSUMED_GAMMA value                        { global_gamma(language, $2); }
+    ASSUMED_GAMMA value                        { global_gamma(language, $1, $2); }
+  | ASSUMED_GAMMA SRGB                         { global_gamma(language, $1, NULL); }
   | MAX_TRACE_LEVEL value                      { global_trace_level(language, $2); }
   | AMBIENT_LIGHT shade                        { global_ambient(language, $2); }
   | solver                                     { global_solver(language); }

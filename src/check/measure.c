@@ -6,7 +6,7 @@
 
 #include "base/sort.h"
 #include "geometry/vector.h"
-#include "image/srgb.h"
+#include "base/srgb.h"
 #include "render/camera.h"
 #include "render/render.h"
 #include "render/shade.h"

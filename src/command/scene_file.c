@@ -151,6 +151,9 @@ bool scene_file_warn(const struct command *command, const struct scene *scene)
   static const char *const what[] = {"no patches", "no light_source", "no camera"};
   for (size_t k = 0; k < sizeof missing / sizeof *missing; k++)
     if (missing[k]) command_warning(command, "the scene has %s", what[k]);
+  if (scene->gamma_assumed)
+    command_warning(command, "the scene has no #version; as in POV-Ray, its colours are then sRGB's. Begin with "
+                             "#version 3.7; for linear colours");
   return missing[0] || missing[1] || missing[2];
 }
 

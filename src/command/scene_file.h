@@ -70,7 +70,8 @@ enum status scene_file_load(const struct command *command, const struct scene_re
  * NULL if memory is short. */
 char *scene_request_text(const struct scene_request *request);
 
-/* Warns if nothing of the scene will be visible: it lacks patches, lights or a camera. Returns whether it does. */
+/* Warns if nothing of the scene will be visible: it lacks patches, lights or a camera. Returns whether it does. Warns, as
+ * POV-Ray does, if the version that decides what its colours mean is missing. */
 bool scene_file_warn(const struct command *command, const struct scene *scene);
 
 /* Returns STATUS_USAGE, after printing the error, if `output` (NULL: nowhere) would overwrite a file of the scene. Ask

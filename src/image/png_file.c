@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/srgb.h"
+#include "base/srgb.h"
 
 /* A file that is being made. libpng leaves its functions by longjmp where they fail, so all that must outlive them
  * stands here. */

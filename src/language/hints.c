@@ -51,7 +51,6 @@ static const struct hint HINTS[] = {
    false, "light is local here, as without it: leave it out"},
   {"charset ascii utf8 sys", false, "comments may hold any bytes: leave it out"},
   {"clock", false, "a declared name does it: pscn render --declare NAME=NUMBER, for each picture"},
-  {"srgb srgbf srgbft srgbt", false, "colours are linear: rgb, each part to the power of 2.2 or so"},
   {"true yes on", false, "1 stands for it"},
   {"false no off", false, "0 stands for it"},
   {"abs acos asin atan atan2 ceil cos degrees div exp floor int ln log max min mod pow radians rand seed select sin "

@@ -102,6 +102,8 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
   }
   scene->arena = arena;
   scene->has_camera = r->camera.said;
+  scene->gamma = settings_gamma(settings);
+  scene->gamma_assumed = !settings->version_said && !settings->gamma_said;
   memcpy(scene->background, settings->background, sizeof scene->background);
   memcpy(scene->ambient_light, settings->ambient_light, sizeof scene->ambient_light);
   enum status status = camera_fold(&r->language, &r->camera, &scene->camera) ? add_lights(settings, scene)

@@ -1,15 +1,20 @@
 /* global_settings, background and light sources. */
 #include "language/settings.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/number.h"
 #include "language/sources.h"
+#include "scene/gamma.h"
 
-/* The versions of POV-Ray's language that a scene may ask for. It is read as the version whose gamma is ours. */
+/* The versions of POV-Ray's language that a scene may ask for. Each is read as 3.7, except for its gamma. */
 #define VERSION_LOW 1.5 /* older ones had no binary operators */
 #define VERSION_READ 3.7
 #define VERSION_HIGH 3.8
+
+/* Beyond it, no colour but white is left of a picture. */
+#define GAMMA_HIGH 1000
 
 /* POV-Ray's largest. Here there are no further levels to trace. */
 enum { MAX_TRACE_LEVEL = 256 };
@@ -23,20 +28,30 @@ void settings_default(struct settings *out)
 
 void language_version(struct language *language, const struct value *value)
 {
-  double *version = &language->settings->version;
-  const bool said = value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false, version);
-  *version = floor(100 * *version + 0.5) / 100; /* POV-Ray keeps two decimals */
-  if (said && *version < VERSION_READ && language->symbols->depth == 0) {
-    diagnostics_warning(language->diagnostics, sources_place(language, value->place),
-                        "this is read as version 3.7: colours are linear, whatever gamma the older one had");
-  }
+  struct settings *settings = language->settings;
+  settings->version_said |= value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false,
+                                           &settings->version);
+  settings->version = floor(100 * settings->version + 0.5) / 100; /* POV-Ray keeps two decimals */
 }
 
-void global_gamma(struct language *language, const struct value *value)
+/* As in POV-Ray, the first one counts. */
+void global_gamma(struct language *language, struct span place, const struct value *value)
 {
-  double gamma;
-  if (value_to_number(language, value, &gamma) && gamma != 1)
-    language_error(language, value->place, "assumed_gamma must be 1: colours are linear");
+  struct settings *settings = language->settings;
+  double gamma = GAMMA_SRGB;
+  if (value && !value_in_range(language, value, "assumed_gamma", DBL_MIN, GAMMA_HIGH, false, &gamma)) return;
+  if (settings->gamma_said)
+    diagnostics_warning(language->diagnostics, sources_place(language, place),
+                        "this is ignored, as in POV-Ray: the first assumed_gamma counts");
+  else settings->gamma = gamma;
+  settings->gamma_said = true;
+}
+
+/* Before version 3.7, POV-Ray put the parts of colours into the picture as they are: in a file that means sRGB. */
+double settings_gamma(const struct settings *settings)
+{
+  if (settings->gamma_said) return settings->gamma;
+  return settings->version_said && settings->version >= VERSION_READ ? 1 : GAMMA_SRGB;
 }
 
 void global_trace_level(struct language *language, const struct value *value)

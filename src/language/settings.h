@@ -18,7 +18,8 @@ struct light_node {
 /* What the statements have said so far. */
 struct settings {
   double background[3], ambient_light[3];
-  double version;                                  /* the last #version */
+  double version, gamma;                           /* the last #version, the first assumed_gamma (scene/gamma.h) */
+  bool version_said, gamma_said;                   /* they were given */
   struct method method;                            /* of all patches without one of their own */
   struct block block;                              /* of the open background */
   int background_values;                           /* colours in it */
@@ -29,7 +30,9 @@ struct settings {
 void settings_default(struct settings *out);
 /* Actions of the grammar, in the order of the text. Between a begin and its end they concern that block. */
 void language_version(struct language *language, const struct value *value);
-void global_gamma(struct language *language, const struct value *value);
+void global_gamma(struct language *language, struct span place, const struct value *value); /* NULL: srgb */
+/* At the end, the space of the scene's colours. */
+double settings_gamma(const struct settings *settings);
 void global_trace_level(struct language *language, const struct value *value);
 void global_ambient(struct language *language, const struct value *value);
 void global_solver(struct language *language);

@@ -24,9 +24,9 @@ static bool contains(const char *const names[], int count, const char *wanted)
 static void list_expected(const char *const expected[], int count, char *out, size_t size)
 {
   enum { MOST_LISTED = 10 };
-  static const char *const in_values[] = {"a number",    "a vector",     "x",    "y",     "z",      "pi",
-                                          "image_width", "image_height", "'('",  "'<'",   "'+'",    "'-'",
-                                          "rgb",         "color",        "rgbf", "rgbft", "version"};
+  static const char *const in_values[] = {
+    "a number", "a vector", "x",   "y",     "z",    "pi",    "image_width", "image_height", "'('",    "'<'",
+    "'+'",      "'-'",      "rgb", "color", "rgbf", "rgbft", "srgb",        "srgbf",        "srgbft", "version"};
   static const char *const parts[] = {"red", "green", "blue", "filter"}; /* which may follow any colour */
   static const char *const anywhere[] = {
     "'+'",       "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", "#default", "the end of the text",

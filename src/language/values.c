@@ -7,7 +7,9 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "language/settings.h"
 #include "language/sources.h"
+#include "scene/gamma.h"
 
 static struct value *make(struct language *language, enum value_kind kind, struct span place)
 {
@@ -228,6 +230,20 @@ struct value *value_rgbft(struct language *language, struct value *a, int parts,
   if (a->kind == VALUE_VECTOR)
     language_error(language, a->place, "a colour of %d parts is wanted here, this has 3", parts);
   return value_rgb(language, a, place);
+}
+
+/* As in POV-Ray, parts below 0 become 0, and the scene's space must be known. */
+struct value *value_srgb(struct language *language, struct span word, struct value *colour)
+{
+  const struct settings *settings = language->settings;
+  value_placed(colour, span_join(word, colour->place));
+  if (colour->kind == VALUE_UNKNOWN) return colour;
+  if (!settings->gamma_said) {
+    language_error(language, colour->place, "srgb wants assumed_gamma before it, in global_settings");
+    return become_unknown(colour, colour->place);
+  }
+  for (int k = 0; k < 3; k++) colour->x[k] = gamma_of_srgb(settings->gamma, fmax(colour->x[k], 0));
+  return colour;
 }
 
 struct value *value_part(struct language *language, struct value *colour, int part, struct value *value,

@@ -28,6 +28,8 @@ struct value *value_rgb(struct language *language, struct value *a, struct span 
 struct value *value_color(struct language *language, struct value *a, struct span place);
 /* After rgbf or rgbt (4 parts) or rgbft (5): a number or a colour; or each part, with transmit NULL if there are 4. */
 struct value *value_rgbft(struct language *language, struct value *a, int parts, struct span place);
+/* A colour given as sRGB codes from 0 to 1, after the word at `word`; it becomes one of the scene's own space. */
+struct value *value_srgb(struct language *language, struct span word, struct value *colour);
 struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
                          struct value *filter, struct value *transmit, struct span place);
 /* A colour without rgb or color, with one part given by name as in value_part. */

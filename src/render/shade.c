@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "geometry/vector.h"
+#include "scene/gamma.h"
 
 /* The end of shadow rays, as a fraction of the way to the light. Where a ray meets a surface under an angle of sine s
  * is known to about eps / s of the way, eps = 2^-52. This end is therefore before a surface that holds the light for
@@ -126,4 +127,7 @@ void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count
       out_rgb[k][c] = texture->finish.ambient[c] * scene->ambient_light[c] * texture->pigment[c];
   }
   for (size_t k = 0; k < scene->light_count; k++) light_packet(&scene->lights[k], tracer, count, views, hits, out_rgb);
+  if (scene->gamma == 1) return;
+  for (size_t k = 0; k < count; k++)
+    for (int c = 0; c < 3; c++) out_rgb[k][c] = gamma_to_light(scene->gamma, out_rgb[k][c]);
 }

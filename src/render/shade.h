@@ -7,7 +7,8 @@
  *   specular  specular x (N.H)^(1/roughness) x light     H: half way between L and the direction to the viewer
  *
  * N is the unit normal facing the viewer, L the unit vector to the light. A `shadowless` light passes through
- * everything and, as in POV-Ray, gives no phong and no specular highlight. A miss gets the background's colour.
+ * everything and, as in POV-Ray, gives no phong and no specular highlight. A miss gets the background's colour. All
+ * this is added up in the space of the scene's colours (scene/gamma.h).
  */
 #ifndef PSCN_RENDER_SHADE_H
 #define PSCN_RENDER_SHADE_H
@@ -27,7 +28,7 @@ bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, st
 void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct hit hits[],
                bool out_lit[]);
 
-/* The linear colours of `count` <= PACKET_SIZE rays with their closest hits; shadow rays go through the tracer. */
+/* The colours, as linear light, of `count` <= PACKET_SIZE rays with their closest hits; shadow rays go through the tracer. */
 void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count, const struct ray rays[],
                   const struct hit hits[], double out_rgb[][3]);
 

@@ -3,6 +3,7 @@
 #include "scene/dump.h"
 
 #include "base/number.h"
+#include "scene/gamma.h"
 
 struct dump {
   const struct scene *scene;
@@ -80,8 +81,10 @@ static void put_texture(struct dump *dump, uint32_t number)
 static void put_settings(struct dump *dump)
 {
   const struct scene *scene = dump->scene;
-  put(dump, "#version 3.7;\nglobal_settings {\n  assumed_gamma 1\n");
-  put_vector(dump, "  ambient_light rgb ", scene->ambient_light);
+  put(dump, "#version 3.7;\nglobal_settings {\n  assumed_gamma ");
+  if (scene->gamma == GAMMA_SRGB) put(dump, "srgb");
+  else put_number(dump, scene->gamma);
+  put_vector(dump, "\n  ambient_light rgb ", scene->ambient_light);
   put(dump, "\n");
   put_solver(dump, &scene->solvers[0]);
   put_vector(dump, "}\nbackground { rgb ", scene->background);

@@ -1,7 +1,7 @@
 /* A scene after all names, includes, arithmetic and transforms have been resolved.
  *
- * The world is left-handed, as in POV-Ray. Colours are linear RGB. Everything is finite. A scene and all it points to
- * live in its arena. Once built, it is read-only and may be shared by threads.
+ * The world is left-handed, as in POV-Ray. Colours are RGB in the space that scene.gamma names. Everything is
+ * finite. A scene and all it points to live in its arena. Once built, it is read-only and may be shared by threads.
  */
 #ifndef PSCN_SCENE_SCENE_H
 #define PSCN_SCENE_SCENE_H
@@ -66,7 +66,9 @@ enum { SCENE_HASH_SIZE = 33 };
 struct scene {
   struct arena *arena;
   struct scene_camera camera;
-  bool has_camera; /* it was given; otherwise it is POV-Ray's default */
+  bool has_camera;    /* it was given; otherwise it is POV-Ray's default */
+  double gamma;       /* the space of all colours, in which light is added up: scene/gamma.h */
+  bool gamma_assumed; /* neither it nor a version of the language was given */
   double background[3], ambient_light[3];
   struct scene_light *lights;
   size_t light_count;

@@ -40,7 +40,7 @@ pscn compare a.png b.png -o once.exr --fail 1 | awk '/^max/ { print $1, $2 }' >m
 pscn compare once.exr diff.exr --fail 2 | awk '/^max/ { print $1, $2 }' | cmp - most && echo "scaled"
 # A difference of one code is not over 1/255, however both values are rounded. A picture of differences holds them
 # unrounded: a hundred times one code is a hundred codes.
-for level in 0.52100 0.52712; do echo "background { rgb $level }" | pscn render - -o $level.png --size 1x1 --quiet; done
+for level in 0.52100 0.52712; do echo "#version 3.7; background { rgb $level }" | pscn render - -o $level.png --size 1x1 --quiet; done
 pscn compare 0.52100.png 0.52712.png --fail 1 --scale 100 -o by.png | grep 'max\|over 1/'
 pscn compare by.png 0.52100.png --fail 1 | grep max
 rm 0.*.png by.png

@@ -26,7 +26,6 @@ try pscn dump scene.pscn $folders $numbers --declare Level=1 >/dev/null
 try pscn dump scene.pscn $folders -I first >/dev/null
 
 cat >scene.pscn <<'END'
-#version 3.6;
 background { rgb 1 }
 END
 try pscn render scene.pscn -o a.png --size 4x3 2>&1 | grep 'warning\|exit'

@@ -15,5 +15,5 @@ for list in words.*; do
       { echo "not told: $word"; failed=1; }
   done <"$list"
 done
-[ "$words" -ge 443 ] || failed=1
+[ "$words" -ge 439 ] || failed=1
 exit "$failed"

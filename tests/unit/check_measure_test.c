@@ -58,7 +58,7 @@ void __wrap_povray_warnings(const struct povray *povray, struct text_buffer *out
   text_buffer_add_text(out, "w");
 }
 
-static struct scene scene = {.camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+static struct scene scene = {.gamma = 1, .camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
 static const struct listener nobody;
 static struct check_request request;
 static struct check_pixel pixels[MOST_PIXELS];
@@ -267,7 +267,8 @@ static void our_pixels_are_known(void **state)
     {.position = {0, 3, 10}}, {.position = {-0.5, 0, 1}}, {.position = {-0.7, 0, 1}, .shadowless = true}};
   struct scene_texture texture = {
     .pigment = {0.2, 0.2, 0.2}, .finish = {.ambient = {1, 1, 1}, .brilliance = 1, .phong_size = 40, .roughness = 0.05}};
-  struct scene seen = {.camera = scene.camera,
+  struct scene seen = {.gamma = 1,
+                       .camera = scene.camera,
                        .ambient_light = {1, 1, 1},
                        .lights = lights,
                        .light_count = 3,

@@ -11,7 +11,7 @@
 
 #include "cmocka_test.h"
 #include "files.h"
-#include "image/srgb.h"
+#include "base/srgb.h"
 #include "random.h"
 
 enum { WIDTH = 5, HEIGHT = 3 };

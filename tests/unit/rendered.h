@@ -43,7 +43,8 @@ static inline struct scene scene_of(void)
   lights[1] = (struct scene_light){.position = {-5, 1, -6}, .color = {0.2, 0.2, 0.4}, .shadowless = true};
   const struct scene_camera camera = {
     .location = {0, 0, -5}, .direction = {0, 0, 1}, .right = {1.4, 0, 0}, .up = {0, 0.9, 0}};
-  return (struct scene){.camera = camera,
+  return (struct scene){.gamma = 1,
+                        .camera = camera,
                         .background = {0.1, 0.2, 0.4},
                         .ambient_light = {1, 0.5, 2},
                         .lights = lights,

@@ -1,8 +1,10 @@
 /* Shading: colours by the formulas, and shadows. */
 #include <float.h>
 
+#include "base/srgb.h"
 #include "geometry/vector.h"
 #include "render/shade.h"
+#include "scene/gamma.h"
 #include "unit/rendered.h"
 
 /* Pixel n of a picture of "rgb,patch" and the point of the wall, patch 1, that it shows; NULL if it shows something
@@ -81,6 +83,28 @@ static void colours_follow_the_formulas(void **state)
     free(out);
   }
   texture = saved;
+}
+
+/* Light is added up in the scene's space, and then becomes linear. */
+static void light_is_added_in_its_space(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  const struct render_options options = options_of("rgb");
+  const double gammas[] = {2, GAMMA_SRGB, 0.001, 30};
+  struct render_stats stats;
+  float *parts = render(&scene, &options, &stats);
+  for (size_t g = 0; g < sizeof gammas / sizeof *gammas; g++) {
+    scene.gamma = gammas[g];
+    float *out = render(&scene, &options, &stats);
+    for (size_t n = 0; n < WIDTH * HEIGHT * 3; n++) {
+      const double part = (double)parts[n], light = gammas[g] == GAMMA_SRGB ? srgb_decode(part) : pow(part, gammas[g]);
+      assert_true(isfinite(out[n]) && fabs((double)out[n] - light) <= 1e-6 * fmax(1, gammas[g]) * light);
+    }
+    free(out);
+  }
+  free(parts);
+  assert_true(gamma_to_light(2, -3) == -9 && gamma_to_light(30, 1e30) == (double)FLT_MAX);
 }
 
 /* A negative diffuse part does not reduce the ambient colour. */
@@ -253,6 +277,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(colours_follow_the_formulas),
+    cmocka_unit_test(light_is_added_in_its_space),
     cmocka_unit_test(nothing_darkens),
     cmocka_unit_test(extreme_colours_are_numbers),
     cmocka_unit_test(highlights_are_no_brighter_than_their_light),

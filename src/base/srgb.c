@@ -1,5 +1,5 @@
 /* The sRGB transfer function, IEC 61966-2-1. */
-#include "image/srgb.h"
+#include "base/srgb.h"
 
 #include <math.h>
 
@@ -15,25 +15,17 @@ static double clip(double value) { return value > 0 ? value < 1 ? value : 1 : 0;
 
 double srgb_encode(double linear)
 {
-  const double x = clip(linear);
-  return x <= LINEAR_LIMIT ? SLOPE * x : (1 + OFFSET) * pow(x, 1 / EXPONENT) - OFFSET;
+  return linear <= LINEAR_LIMIT ? SLOPE * linear : (1 + OFFSET) * pow(linear, 1 / EXPONENT) - OFFSET;
 }
 
 double srgb_decode(double encoded)
 {
-  const double x = clip(encoded);
-  return x <= ENCODED_LIMIT ? x / SLOPE : pow((x + OFFSET) / (1 + OFFSET), EXPONENT);
+  return encoded <= ENCODED_LIMIT ? encoded / SLOPE : pow((encoded + OFFSET) / (1 + OFFSET), EXPONENT);
 }
 
 void srgb_table_fill(struct srgb_table *out)
 {
-  for (int k = 1; k <= 255; k++) {
-    /* The least float whose encoding rounds to k: starts at the decoded midpoint, and steps past its rounding. */
-    float bound = (float)srgb_decode((k - 0.5) / 255);
-    while (srgb_encode((double)bound) * 255 >= k - 0.5) bound = nextafterf(bound, 0.0f);
-    while (srgb_encode((double)bound) * 255 < k - 0.5) bound = nextafterf(bound, 1.0f);
-    out->bound[k - 1] = bound;
-  }
+  for (int k = 1; k <= 255; k++) out->bound[k - 1] = (float)srgb_decode((k - 0.5) / 255);
 }
 
 uint8_t srgb_encode8(const struct srgb_table *table, float linear)
@@ -45,7 +37,7 @@ uint8_t srgb_encode8(const struct srgb_table *table, float linear)
   return (uint8_t)code;
 }
 
-uint16_t srgb_encode16(float linear) { return (uint16_t)(srgb_encode((double)linear) * 65535 + 0.5); }
+uint16_t srgb_encode16(float linear) { return (uint16_t)(srgb_encode(clip((double)linear)) * 65535 + 0.5); }
 
 uint8_t srgb_code8(float encoded) { return (uint8_t)(clip((double)encoded) * 255 + 0.5); }
 

@@ -1,17 +1,18 @@
 /* The sRGB transfer function, IEC 61966-2-1: linear light to display code, rounded once.
  *
- * Values outside [0,1] are clipped, NaN counts as 0.
+ * Codes are clipped to their range; NaN counts as 0.
  */
-#ifndef PSCN_IMAGE_SRGB_H
-#define PSCN_IMAGE_SRGB_H
+#ifndef PSCN_BASE_SRGB_H
+#define PSCN_BASE_SRGB_H
 
 #include <stdint.h>
 
-/* Linear [0,1] to encoded [0,1], and the inverse. */
+/* Linear [0,1] to encoded [0,1], and the inverse; the curves go on beyond. */
 double srgb_encode(double linear);
 double srgb_decode(double encoded);
 
-/* The least linear values of the 8-bit codes 1 to 255: code k starts at bound[k - 1]. */
+/* The linear values at which the 8-bit codes 1 to 255 start: code k at bound[k - 1]. So a decoded code that lies half
+ * way between two 8-bit ones, as 0.5 does, becomes the upper one, as in POV-Ray. */
 struct srgb_table {
   float bound[255];
 };
