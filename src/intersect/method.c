@@ -226,7 +226,7 @@ void method_find(const struct method *method, const struct method_planes *planes
   double c[bezout_MAX_DEGREE + 1];
   const struct polynomial r = resultant(method, leaf, &form, c);
   struct root_set roots = {.count = 0};
-  out->count = out->found = 0;
+  out->count = out->found = out->steps = 0;
   if (r.degree > 0) solver_roots(&r, &method->roots, warm, &roots);
   out->found = roots.count;
   if (story) {
@@ -235,6 +235,7 @@ void method_find(const struct method *method, const struct method_planes *planes
   }
   for (int k = 0; k < roots.count; k++) {
     double other = NAN;
+    out->steps += roots.root[k].iterations;
     const enum root_fate fate = substitute(method, &form, size, &r, &roots.root[k], &other);
     if (story) story->fate[k] = fate, story->other[k] = other;
     if (fate != ROOT_OFFERED) continue;

@@ -15,6 +15,7 @@ enum { METHOD_MAX_ROOTS = POLYNOMIAL_MAX_DEGREE };
 
 struct method_roots {
   int found; /* roots of r */
+  int steps; /* of the iterations that found them */
   int count;
   double u[METHOD_MAX_ROOTS], v[METHOD_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
 };

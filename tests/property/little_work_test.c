@@ -1,6 +1,7 @@
 /* Scenes on which rays once did far more work than they need: few leaves are tried, and little is left to the last
  * resort. */
 #include <math.h>
+#include <string.h>
 
 #include "cmocka_test.h"
 #include "power_net.h"
@@ -409,6 +410,38 @@ static void of_what_lies_in_a_plane_little_is_looked_at(void **state)
   world_close(&world);
 }
 
+/* ---- solvers that never end ---- */
+
+/* Near misses of many patches, for solvers that run to their limit of steps on each: a ray's share of work ends after
+ * a few. */
+static void solvers_are_charged(void **state)
+{
+  (void)state;
+  static const char *const names[] = {"aberth", "durand_kerner", "newton", "laguerre"};
+  enum { MOST_SOLVED = 40 };
+  static world_net nets[NETS];
+  for (size_t n = 0; n < NETS; n++)
+    for (int k = 0; k < 16; k++) {
+      const int i = k / 4, j = k % 4;
+      const double at[3] = {i - 0.015 + 1e-4 * (double)n, j - 1.5, (i + j) % 2 ? -3 : 3};
+      memcpy(nets[n][i][j], at, sizeof at);
+    }
+  for (int way = 0; way < 4; way++) {
+    struct method method;
+    method_default(solver_find(names[way], strlen(names[way])), &method);
+    method_item_find("form")->set(&method, 0);
+    method.roots.tolerance = 1e-300, method.roots.max_iterations = 10000;
+    struct world world;
+    world_open(&world, nets, NETS, &method);
+    const struct ray ray = {.origin = {0, 0, -5}, .direction = {0, 0.01, 1}, .t_max = INFINITY};
+    (void)world_closest(&world, &ray);
+    const int solved = (int)(tracer_counts(world.tracer)->roots_found / 18);
+    print_message("%s: %d solved\n", names[way], solved);
+    assert_in_range(solved, 1, MOST_SOLVED);
+    world_close(&world);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
@@ -421,6 +454,7 @@ int main(void)
                                      cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open),
                                      cmocka_unit_test(next_to_a_tip_nothing_is_left_open),
                                      cmocka_unit_test(of_what_touches_to_the_third_order_little_is_looked_at),
-                                     cmocka_unit_test(of_what_lies_in_a_plane_little_is_looked_at)};
+                                     cmocka_unit_test(of_what_lies_in_a_plane_little_is_looked_at),
+                                     cmocka_unit_test(solvers_are_charged)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
