@@ -15,7 +15,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 charts=${PSCN_CHARTS:-$folder}
 if [ -z "${PSCN_CHARTS:-}" ]; then
-  install_packages "${BUILD_PACKAGES[@]}" povray gnuplot-nox libembree-dev
+  install_packages "${BUILD_PACKAGES[@]}" povray gnuplot-nox libembree-dev liblapack-dev
   cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
   cmake --build build >/dev/null
   for scene in "${SCENES[@]}"; do
@@ -165,10 +165,10 @@ END
   start and split, stands at one place on the axis of errors, the rounding of doubles, without a bad answer: 2-D Newton
   and its certificate decide, and what they do not accept goes to the last resort. The tolerance then changes hardly even
   the time. Certainty costs little: plain Newton, which proves nothing and forms no resultant, takes
-  $(span wild 'f["family"] == "plain-newton"' 'f["ratio"]') times the default's time on the wild patches and
-  $(span teapot 'f["family"] == "plain-newton"' 'f["ratio"]') on the teapot, and is wrong or has nothing for
-  $(span wild 'f["family"] == "plain-newton"' 'bad()') of $(span wild 'f["family"] == "plain-newton"' 'f["hits"]' 4) and
-  $(span teapot 'f["family"] == "plain-newton"' 'bad()') of $(span teapot 'f["family"] == "plain-newton"' 'f["hits"]' 4) hits.
+  $(span wild 'f["name"] == "Newton from the middle"' 'f["ratio"]') times the default's time on the wild patches and
+  $(span teapot 'f["name"] == "Newton from the middle"' 'f["ratio"]') on the teapot, and is wrong or has nothing for
+  $(span wild 'f["name"] == "Newton from the middle"' 'bad()') of $(span wild 'f["name"] == "Newton from the middle"' 'f["hits"]' 4) and
+  $(span teapot 'f["family"] == "rival"' 'bad()') of $(span teapot 'f["family"] == "rival"' 'f["hits"]' 4) hits.
 - **Without polish the answer is the solver's.** On leaves, tolerances of 1e-1 to 1e-3 give bad answers, most of them in
   Bernstein form; below, next to none but \`bernstein\`'s, which keeps
   $(span wild 'f["family"] == "bernstein" && f["polish"] == "off" && '"$tiny" 'bad()') of
@@ -231,7 +231,7 @@ END
     echo "| *whole patches:* | | | | | | | | |"
     rows "$csv" 'f["split"] == 1 && f["family"] != "paper"'
     echo "| *peers:* | | | | | | | | |"
-    rows "$csv" 'f["family"] == "plain-newton" || f["family"] == "embree" || f["family"] == "povray"'
+    rows "$csv" 'f["family"] == "rival" || f["family"] == "embree" || f["family"] == "povray"'
     printf '\nWarm, microseconds a camera ray, bad answers, and the error of T of 99 %% of the rays:\n\n'
     ways "$csv"
     echo

@@ -3,8 +3,8 @@
 # on an otherwise idle machine. Counts are the same every time; times are not.
 #
 #   examples/paper.sh             everything
-#   examples/paper.sh PART...     only these, with the programs as they are built: curves random claims patch pictures maps
-#                                 tangency teapot page; the last makes the figures and the page of the CSV files as they are
+#   examples/paper.sh PART...     only these, with the programs as they are built: curves random claims patch pictures ways
+#                                 causes maps tangency teapot page; the last makes the figures and the page of the CSV files as they are
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -101,6 +101,27 @@ pictures() {
   rm "$data"/unused*.png
 }
 
+# Fig 16 and 17 with one thing changed: how far roots found first spoil those behind them.
+ways() {
+  for figure in 'fig16 paper 1e-2' 'fig17 paper_magnified 1e-10'; do
+    read -r name scene eps <<<"$figure"
+    for way in 'deflation composite' 'radii polygon' 'refine on'; do
+      for method in newton laguerre aberth; do
+        errors "$name,$way,$method" "scenes/$scene.pscn" "$method { $paper tolerance $eps $way }"
+      done
+    done
+  done | { echo "figure,way,method,$kinds"; cat; } | keep ways.csv
+  rm "$data"/unused*.png
+}
+
+# Why hits are lost, class by class, and the condition of every root (tests/stability/causes.c).
+causes() {
+  cmake -S . -B build -DPSCN_TESTS=ON >/dev/null
+  cmake --build build --target stability-causes >/dev/null
+  PSCN_EFFORT=full build/tests/stability/stability-causes | keep causes.csv
+  build/tests/stability/stability-causes conditions | keep conditions.csv
+}
+
 # The same as maps: iterations, eq 11, the distance from the certified answer; Fig 16's patch, eps 1e-2 and 1e-6.
 maps() {
   for eps in 1e-2 1e-6; do
@@ -131,10 +152,10 @@ page() {
 }
 
 mkdir -p "$data"
-for part in "${@:-build curves random claims patch pictures maps tangency teapot page}"; do
+for part in "${@:-build curves random claims patch pictures ways causes maps tangency teapot page}"; do
   for name in $part; do
     case $name in
-    build | curves | random | claims | patch | pictures | maps | tangency | teapot | page) ;;
+    build | curves | random | claims | patch | pictures | ways | causes | maps | tangency | teapot | page) ;;
     *) echo "paper.sh: there is no part '$name'" >&2 && exit 2 ;;
     esac
     echo "$name"

@@ -1,4 +1,4 @@
-/* The peers of a chart: plain Newton, which is ours but has no safeguards; Embree, by a module if that was built; and
+/* The peers of a chart: rival methods, which are ours but prove nothing; Embree, by a module if that was built; and
  * POV-Ray, if installed. */
 #include <dlfcn.h>
 #include <math.h>
@@ -9,24 +9,44 @@
 #include "base/module.h"
 #include "base/sort.h"
 #include "chart/embree_mesh.h"
-#include "chart/plain_newton.h"
+#include "chart/rivals.h"
 #include "chart/work.h"
 #include "page/povray.h"
 #include "geometry/vector.h"
 
-/* ---- plain Newton ---- */
+/* ---- rivals ---- */
 
-static enum status ask_plain_newton(struct chart *chart)
+static enum status ask_rivals(struct chart *chart)
 {
-  struct plain_newton *plain = plain_newton_create(chart->scene, chart->rays);
-  if (plain == NULL) return STATUS_LIMIT;
-  listener_tell(chart->listener, TOLD_PROGRESS, "plain Newton");
-  const struct runner runner = plain_newton_face(plain);
-  struct chart_point said = {.family = FAMILY_PLAIN_NEWTON};
-  snprintf(said.name, sizeof said.name, "2-D Newton from the middle of %dx%d parts", PLAIN_NEWTON_SPLIT,
-           PLAIN_NEWTON_SPLIT);
-  const enum status status = chart_measure(chart, 1, &runner, &said, NULL);
-  plain_newton_destroy(plain);
+  struct {
+    const char *name, *label;
+    rival_seek *seek;
+  } ways[] = {{"Newton from the middle", "N", rival_newton},
+              {"Bezier clipping", "C", rival_clipping},
+              {"interval Newton with Krawczyk's test", "K", rival_krawczyk},
+              {"subdivision", "S", rival_subdivision},
+              {"companion matrix by dhseqr", "E", NULL},
+              {"Bezout's pencil by dggev", "P", NULL}};
+  enum { WAYS = sizeof ways / sizeof ways[0], EIGEN = 4 };
+  void *handle = dlopen(RIVAL_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  for (int k = EIGEN; handle != NULL && k < WAYS; k++)
+    *(void **)&ways[k].seek = dlsym(handle, k == EIGEN ? RIVAL_COMPANION : RIVAL_PENCIL);
+  if (handle == NULL)
+    chart_note(chart, "Eigenvalues are left out: there is no %s, which is built where LAPACK is found.",
+               RIVAL_MODULE_FILE);
+  struct rivals *rivals = rivals_create(chart->scene, chart->rays);
+  if (rivals == NULL) return STATUS_LIMIT;
+  enum status status = STATUS_OK;
+  for (int k = 0; k < WAYS && status == STATUS_OK; k++) {
+    if (ways[k].seek == NULL) continue;
+    listener_tell(chart->listener, TOLD_PROGRESS, "%s", ways[k].name);
+    const struct runner runner = rivals_face(rivals, ways[k].seek);
+    struct chart_point said = {.family = FAMILY_RIVAL};
+    snprintf(said.name, sizeof said.name, "%s", ways[k].name);
+    snprintf(said.label, sizeof said.label, "%s", ways[k].label);
+    status = chart_measure(chart, 1, &runner, &said, NULL);
+  }
+  rivals_destroy(rivals);
   return status;
 }
 
@@ -215,7 +235,7 @@ static enum status ask_povray(struct chart *chart)
 
 enum status chart_peers(struct chart *chart)
 {
-  enum status status = ask_plain_newton(chart);
+  enum status status = ask_rivals(chart);
   if (!chart->request->peers) {
     chart_note(chart, "Embree and POV-Ray were not asked (--no-peers).");
     return status;

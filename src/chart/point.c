@@ -6,8 +6,8 @@
 
 const char *family_name(enum family family)
 {
-  static const char *const NAMES[FAMILIES] = {"bernstein", "newton",       "laguerre", "aberth", "paper",
-                                              "other",     "plain-newton", "embree",   "povray"};
+  static const char *const NAMES[FAMILIES] = {"bernstein", "newton", "laguerre", "aberth", "paper",
+                                              "other",     "rival",  "embree",   "povray"};
   return NAMES[family];
 }
 

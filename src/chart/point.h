@@ -11,7 +11,7 @@ enum family {
   FAMILY_ABERTH,
   FAMILY_PAPER, /* the paper's own form of its three solvers */
   FAMILY_OTHER, /* durand_kerner */
-  FAMILY_PLAIN_NEWTON,
+  FAMILY_RIVAL,
   FAMILY_EMBREE,
   FAMILY_POVRAY,
   FAMILIES

@@ -31,7 +31,7 @@ static const struct look {
   [FAMILY_ABERTH] = {"aberth", "#b7791f", 13, 12},
   [FAMILY_PAPER] = {"as in the paper", "#718096", 15, 14},
   [FAMILY_OTHER] = {"durand\\\\_kerner", "#9d174d", 15, 14},
-  [FAMILY_PLAIN_NEWTON] = {"plain 2-D Newton", "#000000", 7, 6},
+  [FAMILY_RIVAL] = {"rivals, scalar", "#000000", 7, 6},
   [FAMILY_EMBREE] = {"Embree (triangles a side)", "#6b46c1", 5, 4},
   [FAMILY_POVRAY] = {"POV-Ray (u\\\\_steps)", "#0891b2", 5, 4},
 };

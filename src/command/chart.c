@@ -99,7 +99,7 @@ const struct command command_chart = {
   .description =
     "Camera rays of the scene, chosen evenly, and their shadow rays are answered by every solver but durand_kerner,\n"
     "in every basis, at tolerances from 1e-1 to 1e-15, with and without polish, from cold and from previous start\n"
-    "values, and as in the paper; by plain Newton from the middle of each part of a patch; by Embree on triangles,\n"
+    "values, and as in the paper; by rival methods (Newton, clipping, boxes, eigenvalues); by Embree on triangles,\n"
     "where its module is built; and by POV-Ray, where it is installed. Each is timed in turns on one thread, and\n"
     "judged by a reference in quadruple precision that shares nothing with them. DIR receives chart.csv with every\n"
     "point, chart.svg with the Pareto front (drawn by gnuplot), and chart.html, which needs nothing beside itself.\n"
