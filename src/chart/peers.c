@@ -28,7 +28,7 @@ static enum status ask_rivals(struct chart *chart)
               {"companion matrix by dhseqr", "E", NULL},
               {"Bezout's pencil by dggev", "P", NULL}};
   enum { WAYS = sizeof ways / sizeof ways[0], EIGEN = 4 };
-  void *handle = dlopen(RIVAL_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void *handle = module_open(RIVAL_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   for (int k = EIGEN; handle != NULL && k < WAYS; k++)
     *(void **)&ways[k].seek = dlsym(handle, k == EIGEN ? RIVAL_COMPANION : RIVAL_PENCIL);
   if (handle == NULL)
