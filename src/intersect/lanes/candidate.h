@@ -97,7 +97,7 @@ struct root_starts {
 };
 
 /* one_by_one.c: takes start values from the roots of r by a method that does not run on lanes. *out is empty before. */
-void method_starts(struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out);
+void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out);
 
 /* one_by_one.c: without polish the roots of r are the answer, proven or not. */
 lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);

@@ -5,39 +5,36 @@
 #include "intersect/lanes/nearest.h"
 #include "intersect/method.h"
 
-/* A step of one root costs as much of a ray's sweeps (packet.h) as its degree; if the roots are the answer and nothing
- * else decides the leaf, this part of it. A ray then may take 1.7 million steps, which is a third of a second. */
-#define BARE_COST 0x1p-8
+/* If the roots are the answer and nothing else decides the leaf, this part of a step's products is charged: the paper's
+ * form takes thousands of steps for a leaf. */
+#define BARE_COST 0x1p-4
 
-/* Finds the roots on one lane, and takes their cost from the ray's share. Returns whether anything was left of that. */
-static bool lane_solve(const struct packet *p, const struct candidate *it, unsigned lane, struct method_roots *out)
+/* Finds the roots on one lane. A step of one root has some products for each coefficient of r. */
+static void lane_solve(const struct packet *p, const struct candidate *it, unsigned lane, struct method_roots *out)
 {
   const struct method *method = it->patch->method;
-  lanes *sweeps = &p->postponed->sweeps;
-  *out = (struct method_roots){.count = 0};
-  if (!((*sweeps)[lane] > 0)) return false;
   struct method_planes planes = {.leaf = it->leaf};
   for (int i = 0; i <= it->leaf->kept_degree; i++)
     for (int j = 0; j <= it->leaf->eliminated_degree; j++)
       planes.a[4 * i + j] = it->fa[4 * i + j][lane], planes.b[4 * i + j] = it->fb[4 * i + j][lane];
   method_find(method, &planes, tracer_warm(p->tracer, method, it->number), out, explain_roots(p->tracer));
   p->tracer->counts.roots_found += (unsigned)out->found;
-  const int degree = 2 * it->leaf->kept_degree * it->leaf->eliminated_degree;
-  (*sweeps)[lane] -= (method->polish ? 1.0 : BARE_COST) * degree * out->steps;
-  return true;
+  const double products = (double)(2 * it->leaf->kept_degree * it->leaf->eliminated_degree) * out->steps;
+  lane_mask cost = {0};
+  cost[lane] = (int64_t)(products * (method->polish ? 1.0 : BARE_COST) / PRODUCTS_A_UNIT);
+  packet_charge(p, cost);
 }
 
-void method_starts(struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out)
+void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out)
 {
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     struct method_roots roots;
-    (void)lane_solve(p, it, lane, &roots);
+    lane_solve(p, it, lane, &roots);
     const int count = roots.count < TRIED_ROOTS ? roots.count : TRIED_ROOTS;
     for (int k = 0; k < count; k++) out->u[k][lane] = roots.u[k], out->v[k][lane] = roots.v[k], out->has[k][lane] = -1;
     out->count = out->count > count ? out->count : count;
   }
-  packet_spent(p, open);
 }
 
 lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open)
@@ -45,11 +42,10 @@ lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask ope
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     struct method_roots roots;
-    if (!lane_solve(p, it, lane, &roots)) packet_give_up(p, 1u << lane);
+    lane_solve(p, it, lane, &roots);
     for (int n = 0; n < roots.count; n++)
       if (roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)
         offer_unproven(p, it, lanes_all(roots.u[n]), lanes_all(roots.v[n]), lanes_mask(1u << lane));
   }
-  packet_spent(p, open);
   return (lane_mask){0};
 }
