@@ -141,7 +141,7 @@ declaration:
   | declare part_block                         { declare_texture(language, $1, $2); } semicolon
   ;
 declared_value: declare shade ';'              { declare_value(language, $1, $2); };
-layers: %empty | layers TEXTURE '{' { layer_begin(language, $2); } texture_items '}' { layer_end(language); };
+layers: %empty | layers TEXTURE '{' { layer_begin(language, $2); } texture_items '}' { layer_end(language, $6); };
 declare: DECLARE old WORD '='                  { $$ = declare_begin(language, $3, NULL); }
   | LOCAL old WORD '='                         { $$ = declare_begin(language, $3, &$1); };
 old: %empty | DEPRECATED STRING | DEPRECATED ONCE STRING;

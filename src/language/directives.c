@@ -5,6 +5,7 @@
 
 #include "language/hints.h"
 #include "language/macros.h"
+#include "language/syntax_errors.h"
 #include "language/tokens.h"
 
 /* The last token of the source being read, whatever it is. */
@@ -202,7 +203,7 @@ bool directives_pass(struct language *language, int token)
   case TOKEN_OPEN_COMMENT: tell_open_comment(language); return true;
   case TOKEN_OPEN_STRING: sources_tell_open_string(language); return true;
   case TOKEN_BAD_CHARACTER:
-    if (!language->tokens->skipping) language_error(language, sources_here(language), "this means nothing here");
+    if (!language->tokens->skipping) character_error(language);
     return true;
   case TOKEN_FOREIGN_OPENER:
   case TOKEN_FOR:

@@ -9,4 +9,7 @@
 enum { HINT_SIZE = 200 };
 void hint_write(const char *word, size_t length, char *out, size_t size);
 
+/* The file of POV-Ray's that declares the name, or NULL if none is known to. */
+const char *hint_file(const char *word, size_t length);
+
 #endif

@@ -60,8 +60,10 @@ void patch_number(struct language *language, int which, struct span item, const 
     const char *name;
     double high;
     bool whole;
-  } settings[PATCH_SETTINGS] = {
-    {"type", 1, true}, {"flatness", INFINITY, false}, {"u_steps", MAX_STEPS, true}, {"v_steps", MAX_STEPS, true}};
+  } settings[PATCH_SETTINGS] = {{"type", INFINITY, true},
+                                {"flatness", INFINITY, false},
+                                {"u_steps", MAX_STEPS, true},
+                                {"v_steps", MAX_STEPS, true}};
   struct open_node *open = language->objects->open;
   if (open->stage != STAGE_SETTINGS) {
     language_error(language, item, "the settings of a bicubic_patch stand before its control points");
@@ -72,6 +74,11 @@ void patch_number(struct language *language, int which, struct span item, const 
   open->has_type |= which == PATCH_TYPE;
   value_in_range(language, value, settings[which].name, 0, settings[which].high, settings[which].whole,
                  &open->node.net->setting[which]);
+  if (which == PATCH_TYPE && open->node.net->setting[PATCH_TYPE] > 1) {
+    diagnostics_warning(language->diagnostics, sources_place(language, value->place),
+                        "this type is read as 1, as POV-Ray does");
+    open->node.net->setting[PATCH_TYPE] = 1;
+  }
 }
 
 void patch_point(struct language *language, const struct value *value)
@@ -102,12 +109,9 @@ static void points_end(struct language *language)
   struct open_node *open = language->objects->open;
   open->stage = STAGE_MODIFIERS;
   if (!language_sound(language, &open->block)) return;
-  if (open->points != PATCH_POINTS) {
+  if (open->points != PATCH_POINTS)
     language_error(language, open->block.place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS,
                    open->points);
-  } else if (open->after_comma) {
-    language_error(language, open->block.place, "a comma stands behind the last control point of this bicubic_patch");
-  }
 }
 
 void patch_modified(struct language *language) { points_end(language); }

@@ -28,8 +28,9 @@ enum {
   TOKEN_FILE,              /* #fopen, which declares a name, or #fclose, which undeclares it */
   TOKEN_READ,              /* #read, which gives values to several names */
   TOKEN_UNKNOWN_DIRECTIVE,
-  TOKEN_SECOND_POINT, /* a number with a second point, and what follows it; scan->number[0] is 1 */
-  TOKEN_OPEN_EXPONENT /* a number whose exponent has no digits, and the word that begins there; scan->number[0] is 1 */
+  TOKEN_SECOND_POINT,  /* a number with a second point, and what follows it; scan->number[0] is 1 */
+  TOKEN_OTHER_LETTERS, /* a name with letters that are not ASCII */
+  TOKEN_OPEN_EXPONENT  /* a number whose exponent has no digits, and the word that begins there; scan->number[0] is 1 */
 };
 
 /* One scanner over one text. */

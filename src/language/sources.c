@@ -71,12 +71,22 @@ static bool remember(struct language *language, struct source *source)
   return true;
 }
 
+/* Whether the text is UTF-16: it begins with a byte order mark of that, or with two characters of ASCII. */
+static bool is_wide(const struct source *source)
+{
+  const unsigned char *t = (const unsigned char *)source->text;
+  if (source->length >= 2 && ((t[0] == 0xFF && t[1] == 0xFE) || (t[0] == 0xFE && t[1] == 0xFF))) return true;
+  return source->length >= 4 && (t[0] == 0) == (t[2] == 0) && (t[1] == 0) == (t[3] == 0) && (t[0] == 0) != (t[1] == 0);
+}
+
 bool sources_open(struct language *language, struct source *source)
 {
   if (!remember(language, source)) {
     source_destroy(source);
     return false;
   }
+  const bool wide = is_wide(source);
+  if (wide) memset(source->text, 0, source->length), source->length = 0;
   struct frame *frame = memory_alloc(1, sizeof *frame);
   if (!frame || !pscn_scan_open(&frame->scan, source->text, source->length, &language->sources->broken)) {
     memory_free(frame);
@@ -87,6 +97,7 @@ bool sources_open(struct language *language, struct source *source)
   frame->outer = language->sources->frame;
   language->sources->frame = frame;
   language->number = frame->scan.number;
+  if (wide) language_tell(language, sources_span(frame, 0, 0), "this is UTF-16: save it as UTF-8 or ASCII");
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "language/hints.h"
 #include "language/settings.h"
 #include "language/sources.h"
 #include "language/tokens.h"
@@ -105,8 +106,15 @@ static size_t count_missed(struct language *language, const struct name *name)
 static void tell_unknown(struct language *language, const struct name *name, const char *wanted)
 {
   const bool held = language_holds(language);
+  if (language->unknown.ends == name->place.ends) return; /* it has been reported for its letters */
   language->unknown = name->place;
   if (!held && count_missed(language, name) > 0) return;
+  const char *file = hint_file(name->text, name->length);
+  if (file) {
+    language_error(language, name->place, "'%.*s' is not declared: #include \"%s\" declares it", (int)name->length,
+                   name->text, file);
+    return;
+  }
   struct guess guess = guess_begin(name->text, name->length);
   if (!diagnostics_full(language->diagnostics) && /* else the guess would not be read */
       !(held && language->symbols->guessed++ >= MOST_GUESSED)) {

@@ -126,6 +126,48 @@ static void tell_unexpected(struct language *language, const struct name *text, 
                                                 list);
 }
 
+/* Writes how the character at `text` is known, if it cannot be seen or typed everywhere; else nothing. */
+static void name_character(const char *text, size_t length, char *out, size_t size)
+{
+  static const struct {
+    unsigned code;
+    const char *name;
+  } unseen[] = {{0xA0, ", a no-break space"},          {0xAD, ", a soft hyphen"},
+                {0x200B, ", a zero-width space"},      {0x2028, ", a line separator"},
+                {0x202F, ", a narrow no-break space"}, {0xFEFF, ", a byte order mark"},
+                {0xFFFC, ", in place of an object"},   {0xFFFD, ", in place of a lost character"}};
+  const size_t bytes = source_character(text, length);
+  const unsigned first = (unsigned char)text[0];
+  unsigned code = bytes < 2 ? first : first & (0x7Fu >> bytes);
+  const char *name = "";
+  for (size_t k = 1; k < bytes; k++) code = code << 6 | ((unsigned char)text[k] & 0x3F);
+  for (int k = 0; k < COUNT(unseen); k++)
+    if (unseen[k].code == code) name = unseen[k].name;
+  if (bytes == 0) snprintf(out, size, "the byte %02X, which is not UTF-8", first);
+  else if (code > ' ' && code < 0x7F) out[0] = '\0';
+  else snprintf(out, size, "the character U+%04X%s", code, name);
+}
+
+void character_error(struct language *language)
+{
+  const struct name name = sources_name(language, sources_here(language));
+  char character[80];
+  name_character(name.text, name.length, character, sizeof character);
+  if (character[0] == '\0') language_error(language, name.place, "this means nothing here");
+  else language_error(language, name.place, "%s: this means nothing here", character);
+}
+
+void letters_error(struct language *language, struct span place)
+{
+  const struct name name = sources_name(language, place);
+  char character[80];
+  size_t k = 0;
+  while (!((unsigned char)name.text[k] & 0x80)) k++;
+  name_character(name.text + k, name.length - k, character, sizeof character);
+  language_error(language, place, "%s: names have the letters a to z, A to Z, digits and _", character);
+  language->unknown = place;
+}
+
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count)
 {
   struct tokens *tokens = language->tokens;

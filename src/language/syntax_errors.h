@@ -7,4 +7,8 @@
 /* Reports the last token, which is none of `count` expected ones. `is_word`: nor is it a word of the language. */
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count);
 
+/* Reports the character at which the scanner stopped, or a name for its letters that are not ASCII. */
+void character_error(struct language *language);
+void letters_error(struct language *language, struct span place);
+
 #endif

@@ -148,16 +148,12 @@ void layer_begin(struct language *language, struct span place)
   struct declaration *declaration = language->layered;
   declaration->outer = language->declaration;
   language->declaration = declaration;
-  language_foreign(language, place, "a texture of several layers is POV-Ray, but pscn has one; leave out all but one");
   texture_begin(language, place, TEXTURE_ALL);
 }
 
-void layer_end(struct language *language)
+void layer_end(struct language *language, struct span brace)
 {
-  struct declaration *declaration = language->declaration;
-  language->texture = language->texture->outer;
-  declare_end(language, declaration);
-  language->layered = declaration;
+  declare_texture(language, language->declaration, texture_end(language, brace));
 }
 
 void texture_set_default(struct language *language, const struct texture *texture)

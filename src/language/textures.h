@@ -47,8 +47,9 @@ void texture_moved(struct language *language); /* a transform, which does not ch
 void pigment_value(struct language *language, const struct value *value);
 void finish_ambient(struct language *language, const struct value *value);
 void finish_number(struct language *language, int part, const struct value *value);
-void layer_begin(struct language *language, struct span place); /* one more layer of the texture declared last */
-void layer_end(struct language *language);
+void layer_begin(struct language *language,
+                 struct span place); /* one more layer of the texture declared last, which hides it */
+void layer_end(struct language *language, struct span brace);
 void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture);
 
 #endif

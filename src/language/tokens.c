@@ -3,6 +3,7 @@
 
 #include "language/directives.h"
 #include "language/macros.h"
+#include "language/syntax_errors.h"
 
 static bool is_number(int token) { return token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT; }
 
@@ -84,6 +85,10 @@ static int stand_in(struct language *language, int token)
     const char *wrong = token == TOKEN_SECOND_POINT ? "a number has one point" : "the exponent of a number has digits";
     if (!tokens->skipping) language_error(language, tokens->last.place, "%s", wrong);
     return PSCN_TOKEN_NUMBER;
+  }
+  if (token == TOKEN_OTHER_LETTERS) {
+    if (!tokens->skipping) letters_error(language, tokens->last.place);
+    return PSCN_TOKEN_WORD;
   }
   if (token != TOKEN_FOREIGN_OPENER && token != TOKEN_FOR) directives_tell(language, token);
   tokens->told = tokens->last.place;

@@ -23,7 +23,7 @@ for name in loop device.pscn/x "$(printf 'x%.0s' {1..300})"; do within pscn dump
 # Texts of NULs take no longer than others, nor does a file that holds nothing for 4 GB.
 nuls() { head -c 4000000 /dev/zero; }
 nuls >nuls
-within pscn dump nuls
+within pscn dump nuls | tail -n 1
 (printf '//' && nuls) | timeout 100 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
 (printf '/*' && nuls && printf '*/') | timeout 100 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
 (printf '#include "' && nuls) | within pscn dump - 2>&1 | cut -c 1-60
