@@ -105,9 +105,8 @@ static bool judged_good(const char *path)
   return good;
 }
 
-static void test_cases(void **state)
+TEST(test_cases)
 {
-  (void)state;
   struct dirent **entries;
   const int count = scandir(FOLDER, &entries, NULL, alphasort);
   assert_true(count > 0);
@@ -124,10 +123,4 @@ static void test_cases(void **state)
   exact_cleanup();
   printf("%d cases, %d answered wrongly\n", cases, bad);
   assert_int_equal(bad, 0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_cases)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

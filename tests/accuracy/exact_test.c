@@ -33,9 +33,8 @@ static void expect_nine(const double P[4][4][3], double aside_u, double aside_v)
   assert_int_equal(roots.count, 9);
 }
 
-static void roots_are_listed_once(void **state)
+TEST(roots_are_listed_once)
 {
-  (void)state;
   for (int bent = 0; bent < 2; bent++) {
     double P[4][4][3];
     make_net(bent / 16.0, P);
@@ -50,9 +49,8 @@ static void roots_are_listed_once(void **state)
 }
 
 /* Two roots so near that doubles cannot tell them apart. */
-static void near_roots_are_two(void **state)
+TEST(near_roots_are_two)
 {
-  (void)state;
   double P[4][4][3];
   for (int i = 0; i < 4; i++) /* x = (u - 1/2)^2 less a little, y = v - 1/2 */
     for (int j = 0; j < 4; j++)
@@ -67,9 +65,8 @@ static void near_roots_are_two(void **state)
 }
 
 /* What a hit says of its point is proven and refuted alike at all sizes of doubles. */
-static void points_of_all_sizes(void **state)
+TEST(points_of_all_sizes)
 {
-  (void)state;
   for (int k = -960; k <= 1000; k += 40) {
     double P[1][4][4][3];
     struct trial trial;
@@ -93,9 +90,8 @@ static void points_of_all_sizes(void **state)
 }
 
 /* A tube meets itself along a seam. Next to it a hit's place may be on either side, and nowhere else. */
-static void places_at_a_seam(void **state)
+TEST(places_at_a_seam)
 {
-  (void)state;
   static const double x[4] = {1, -3, -3, 1}, y[4] = {0, 3, -3, 0};
   double P[1][4][4][3];
   for (int n = 0; n < 16; n++)
@@ -124,9 +120,7 @@ static void places_at_a_seam(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(roots_are_listed_once), cmocka_unit_test(near_roots_are_two),
-                                     cmocka_unit_test(points_of_all_sizes), cmocka_unit_test(places_at_a_seam)};
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  const int failed = test_run();
   exact_cleanup();
   return failed;
 }

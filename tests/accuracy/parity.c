@@ -251,9 +251,8 @@ static bool body_ray(const struct body *body, struct random *random, struct ray 
 
 /* The sharpest test: rays that touch an edge or a corner from outside are grazing, those that cross it count it
  * once. */
-static void test_creases(void **state)
+TEST(test_creases)
 {
-  (void)state;
   const uint64_t seed = effort_seed(830);
   struct random random = {.state = seed};
   const size_t wanted = effort_count(FULL_RAYS / 200, LEAST_RAYS / 2);
@@ -279,17 +278,15 @@ static void test_creases(void **state)
   }
 }
 
-static void test_default(void **state)
+TEST(test_default)
 {
-  (void)state;
   struct method options;
   method_default(solver_at(0), &options);
   assert_int_equal(wrong_of(&options, effort_count(FULL_RAYS, LEAST_RAYS), 811), 0);
 }
 
-static void test_others(void **state)
+TEST(test_others)
 {
-  (void)state;
   static const int splits[] = {1, 2, 3, 16};
   const size_t wanted = effort_count((size_t)(OTHERS_SHARE * FULL_RAYS), LEAST_RAYS / 8);
   size_t wrong = 0;
@@ -301,11 +298,4 @@ static void test_others(void **state)
     wrong += wrong_of(&options, wanted, 820 + n);
   }
   assert_int_equal(wrong, 0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_creases), cmocka_unit_test(test_default),
-                                     cmocka_unit_test(test_others)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,30 +59,8 @@ static void run(const char *name, uint64_t seed, double wild, bool fold)
   tally_free(&tally);
 }
 
-static void test_tame(void **state)
-{
-  (void)state;
-  run("tame", 101, 0.35, false);
-}
+TEST(test_tame) { run("tame", 101, 0.35, false); }
 
-static void test_wild(void **state)
-{
-  (void)state;
-  run("wild", 102, 2.5, false);
-}
+TEST(test_wild) { run("wild", 102, 2.5, false); }
 
-static void test_self_intersecting(void **state)
-{
-  (void)state;
-  run("self-intersecting", 103, 0.8, true);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_tame),
-    cmocka_unit_test(test_wild),
-    cmocka_unit_test(test_self_intersecting),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST(test_self_intersecting) { run("self-intersecting", 103, 0.8, true); }

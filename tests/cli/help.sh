@@ -3,8 +3,8 @@ try pscn --version
 try pscn help
 try pscn --help >/dev/null
 try pscn
+for command in dump help; do try pscn help $command; done
 for command in render trace dump compare help; do
-  try pscn help $command
   pscn $command --help | cmp - <(pscn help $command) && echo "--help is the same"
 done
 pscn help -h | cmp - <(pscn help help) && echo "-h is the same"

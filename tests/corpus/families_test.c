@@ -137,9 +137,8 @@ static int try_polynomial(struct trial *trial, int degree, const double c[])
   return wrong;
 }
 
-static void no_root_is_lost(void **state)
+TEST(no_root_is_lost)
 {
-  (void)state;
   static struct trial trial;
   const size_t count = effort_count(FULL, QUICK);
   int wrong = 0;
@@ -159,10 +158,4 @@ static void no_root_is_lost(void **state)
                   100.0 * (double)said_unknown / (double)(answered + 1));
   }
   assert_int_equal(wrong, 0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(no_root_is_lost)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,13 +42,12 @@ static void render(const char *tile, const char *output, const char *samples)
                    STATUS_OK);
 }
 
-static void test_changed(void **state)
+TEST(test_changed)
 {
   static const char *const again[][3] = {{"1/2", "2", "another picture's"},
                                          {"2/2", "1", "another number"},
                                          {"1/3", "1", "of more pieces"},
                                          {"1/2", "1", "nothing else"}};
-  (void)state;
   for (size_t k = 0; k < sizeof again / sizeof *again; k++) {
     render("1/2", "one.exr", "1"), render("2/2", "two.exr", "1"), render(again[k][0], "other.exr", again[k][1]);
     change = true;
@@ -72,8 +71,7 @@ int main(void)
   if (!mkdtemp(folder) || chdir(folder) != 0) return 1;
   FILE *file = fopen("scene.pscn", "w");
   if (!file || fputs(scene, file) < 0 || fclose(file) != 0) return 1;
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_changed)};
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  const int failed = test_run();
   for (size_t k = 0; k < sizeof files / sizeof *files; k++) unlink(files[k]);
   if (rmdir(folder) != 0) return 1;
   return failed;

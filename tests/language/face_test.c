@@ -34,9 +34,8 @@ static enum status load(const char *text, size_t length, const struct language_s
   return language_load_text("<text>", text, length, settings, &diagnostics, out);
 }
 
-static void test_files(void **state)
+TEST(test_files)
 {
-  (void)state;
   struct scene *scene = NULL;
   struct diagnostics diagnostics = listener();
   assert_int_equal(language_load("no/such.pscn", &PLAIN, &diagnostics, &scene), STATUS_FILE);
@@ -50,9 +49,8 @@ static void test_files(void **state)
   assert_null(scene);
 }
 
-static void test_unreadable_file(void **state)
+TEST(test_unreadable_file)
 {
-  (void)state;
   if (geteuid() == 0) skip(); /* root may read everything */
   char path[] = "/tmp/pscn-XXXXXX";
   const int file = mkstemp(path);
@@ -65,9 +63,8 @@ static void test_unreadable_file(void **state)
   unlink(path);
 }
 
-static void test_size(void **state)
+TEST(test_size)
 {
-  (void)state;
   static const char text[] = "background { rgb <image_width, image_height, image_width / image_height> }";
   struct scene *scene = NULL;
   assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
@@ -75,9 +72,8 @@ static void test_size(void **state)
   scene_destroy(scene);
 }
 
-static void test_solver_text(void **state)
+TEST(test_solver_text)
 {
-  (void)state;
   struct method options = {0};
   struct diagnostics diagnostics = listener();
   assert_int_equal(
@@ -87,9 +83,8 @@ static void test_solver_text(void **state)
   assert_true(!options.polish && options.split == 7 && options.roots.tolerance == 1e-7 && diagnostics.error_count == 0);
 }
 
-static void test_wrong_solver_texts(void **state)
+TEST(test_wrong_solver_texts)
 {
-  (void)state;
   static const struct {
     const char *text, *told;
   } cases[] = {
@@ -117,9 +112,8 @@ static void test_wrong_solver_texts(void **state)
 }
 
 /* Many different ones, each asked for twice: all are kept, once each. */
-static void test_textures_and_solvers(void **state)
+TEST(test_textures_and_solvers)
 {
-  (void)state;
   enum { COUNT = 100 };
   static char text[2 * COUNT * 120];
   size_t length = 0;
@@ -143,9 +137,8 @@ static void test_textures_and_solvers(void **state)
 }
 
 /* --solver replaces every solver statement, --tolerance then that one item of every one. */
-static void test_override(void **state)
+TEST(test_override)
 {
-  (void)state;
   static const char text[] =
     "#declare P = bicubic_patch { type 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 solver newton { tolerance 1e-3 } }"
     "object { P } global_settings { solver aberth { tolerance 1e-4 } }";
@@ -191,9 +184,8 @@ static char *repeated(const char *piece, size_t count, const char *end, size_t *
 }
 
 /* Long texts of one kind: the time of reading is proportional to the length, and the status is right. */
-static void test_long_texts(void **state)
+TEST(test_long_texts)
 {
-  (void)state;
   enum { MANY = 200000 };
   static const struct {
     const char *piece, *end;
@@ -231,9 +223,8 @@ static void test_long_texts(void **state)
 
 /* A quarter of a million names, many more that are unknown, and ten thousand files that forget theirs. It would take
  * minutes if any step took time in proportion to all names. */
-static void test_many_names(void **state)
+TEST(test_many_names)
 {
-  (void)state;
   enum { NAMES = 250000 };
   char *text = NULL;
   size_t length = 0;
@@ -254,9 +245,8 @@ static void test_many_names(void **state)
 }
 
 /* Of files that include each other each text is held once. */
-static void test_included_often(void **state)
+TEST(test_included_often)
 {
-  (void)state;
   struct language_settings settings = PLAIN;
   struct scene *scene = NULL;
   struct diagnostics diagnostics = listener();
@@ -270,9 +260,8 @@ static void test_included_often(void **state)
 }
 
 /* Patches are counted before any is built, so too many are refused at once. */
-static void test_max_memory(void **state)
+TEST(test_max_memory)
 {
-  (void)state;
   char text[10000] = "#declare U = bicubic_patch { type 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 }";
   for (int k = 0; k < 24; k++) strcat(text, "#declare U = union { object { U } object { U } }");
   strcat(text, "object { U }");
@@ -285,9 +274,8 @@ static void test_max_memory(void **state)
 }
 
 /* Include files must be files. A pipe without a writer is not waited for. */
-static void test_included_kinds(void **state)
+TEST(test_included_kinds)
 {
-  (void)state;
   char folder[] = "/tmp/pscn-XXXXXX", path[64], text[200];
   assert_non_null(mkdtemp(folder));
   (void)snprintf(path, sizeof path, "%s/pipe", folder);
@@ -309,9 +297,8 @@ static void test_included_kinds(void **state)
 }
 
 /* 2^150 copies of an empty object take no time. */
-static void test_many_empty_copies(void **state)
+TEST(test_many_empty_copies)
 {
-  (void)state;
   char text[10000] = "#declare U = union { }";
   for (int k = 0; k < 150; k++) strcat(text, "#declare U = union { object { U } object { U } }");
   strcat(text, "object { U }");
@@ -326,9 +313,8 @@ static void test_many_empty_copies(void **state)
   "<3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0>"
 
 /* An object named once is only its patches. */
-static void test_one_is_no_copy(void **state)
+TEST(test_one_is_no_copy)
 {
-  (void)state;
   static const char text[] = "#declare P = bicubic_patch { type 1 " NET " }\n"
                              "object { P rotate 10 * x }\n";
   struct scene *scene = NULL;
@@ -341,9 +327,8 @@ static void test_one_is_no_copy(void **state)
 
 /* A declared object that is named several times is reported as one, wherever it is and however it is moved. Its copies'
  * maps carry its patches to theirs. */
-static void test_copies(void **state)
+TEST(test_copies)
 {
-  (void)state;
   static const char text[] =
     "#declare P = bicubic_patch { type 1 " NET " translate <0.1, 0, 0> }\n"
     "#declare Two = union { object { P rotate <10, 20, 30> } object { P scale <1, -2, 0.3> } translate z }\n"
@@ -380,22 +365,5 @@ static void test_copies(void **state)
 int main(void)
 {
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_files),
-    cmocka_unit_test(test_unreadable_file),
-    cmocka_unit_test(test_size),
-    cmocka_unit_test(test_solver_text),
-    cmocka_unit_test(test_wrong_solver_texts),
-    cmocka_unit_test(test_textures_and_solvers),
-    cmocka_unit_test(test_override),
-    cmocka_unit_test(test_long_texts),
-    cmocka_unit_test(test_many_empty_copies),
-    cmocka_unit_test(test_many_names),
-    cmocka_unit_test(test_max_memory),
-    cmocka_unit_test(test_included_often),
-    cmocka_unit_test(test_included_kinds),
-    cmocka_unit_test(test_one_is_no_copy),
-    cmocka_unit_test(test_copies),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -106,20 +106,6 @@ static void run_folder(const char *folder)
   free(files);
 }
 
-static void test_scenes(void **state)
-{
-  (void)state;
-  run_folder(PSCN_SOURCE_DIR "/tests/language/ok");
-}
+TEST(test_scenes) { run_folder(PSCN_SOURCE_DIR "/tests/language/ok"); }
 
-static void test_errors(void **state)
-{
-  (void)state;
-  run_folder(PSCN_SOURCE_DIR "/tests/language/bad");
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes), cmocka_unit_test(test_errors)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST(test_errors) { run_folder(PSCN_SOURCE_DIR "/tests/language/bad"); }

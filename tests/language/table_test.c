@@ -23,9 +23,8 @@ static struct item *find(const struct table *table, const char *name, size_t len
   return (struct item *)entry;
 }
 
-static void test_found_again(void **state)
+TEST(test_found_again)
 {
-  (void)state;
   static struct item items[NAMES], again[NAMES];
   struct arena *arena = arena_create();
   struct table table = {0};
@@ -52,9 +51,8 @@ static void test_found_again(void **state)
   arena_destroy(arena);
 }
 
-static void test_no_two_tables_are_alike(void **state)
+TEST(test_no_two_tables_are_alike)
 {
-  (void)state;
   struct arena *arena = arena_create();
   struct table one = {0}, other = {0};
   struct item a = {.name = "Name", .length = 4}, b = a;
@@ -62,11 +60,4 @@ static void test_no_two_tables_are_alike(void **state)
   assert_true(table_add(&other, arena, &b.entry, b.name, b.length));
   assert_true(a.entry.hash != b.entry.hash);
   arena_destroy(arena);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_found_again),
-                                     cmocka_unit_test(test_no_two_tables_are_alike)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,8 @@
 
 enum { KINDS = WORDS_FOREIGN + 1, LEAST = 5 };
 
-static void test_lists(void **state)
+TEST(test_lists)
 {
-  (void)state;
   const int plain = words_token("plainly_a_name", 14);
   for (int kind = 0; kind < KINDS; kind++) {
     size_t count = 0;
@@ -36,9 +35,8 @@ static void test_lists(void **state)
   }
 }
 
-static void test_order(void **state)
+TEST(test_order)
 {
-  (void)state;
   assert_true(words_compare("camera", 6, "camera") == 0 && words_compare("cam", 3, "camera") < 0);
   assert_true(words_compare("cameras", 7, "camera") > 0 && words_compare("b", 1, "a") > 0 &&
               words_compare("", 0, "a") < 0);
@@ -52,9 +50,8 @@ static void test_order(void **state)
   assert_true(strlen(text) < 5);
 }
 
-static void test_guesses(void **state)
+TEST(test_guesses)
 {
-  (void)state;
   const struct {
     const char *word, *meant;
   } words[] = {{"camrea", "camera"}, {"bicubic_pach", "bicubic_patch"}, {"Camera", "camera"}, {"qqqqqqq", NULL}};
@@ -84,9 +81,8 @@ static void test_guesses(void **state)
 }
 
 /* A third of the letters may be wrong, in a short word one. Two exchanged letters count as one. */
-static void test_how_wrong(void **state)
+TEST(test_how_wrong)
 {
-  (void)state;
   const struct {
     const char *word, *other;
     bool meant;
@@ -99,11 +95,4 @@ static void test_how_wrong(void **state)
     guess_consider(&guess, cases[k].other, strlen(cases[k].other));
     assert_int_equal(guess.best != NULL, cases[k].meant);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_lists), cmocka_unit_test(test_order),
-                                     cmocka_unit_test(test_guesses), cmocka_unit_test(test_how_wrong)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

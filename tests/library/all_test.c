@@ -31,9 +31,8 @@ static void make_lines(struct pscn_ray rays[COUNT])
       {(n % SIDE + 0.25) * 2.2 / SIDE - 1.1, (n / SIDE + 0.75) * 2.2 / SIDE - 1.1, -3}, {0, 0, 1}, 0, INFINITY};
 }
 
-static void test_rows(void **state)
+TEST(test_rows)
 {
-  (void)state;
   static struct pscn_ray rays[COUNT];
   static struct pscn_hits counts[COUNT], alone[COUNT];
   static struct pscn_hit hits[COUNT][MOST], nearest[COUNT];
@@ -82,9 +81,8 @@ static void test_rows(void **state)
 }
 
 /* If a ray meets the border of an open surface, neither the number nor the hit is proven. */
-static void test_grazing(void **state)
+TEST(test_grazing)
 {
-  (void)state;
   double points[4][4][3];
   for (int n = 0; n < 16; n++)
     points[n / 4][n % 4][0] = n % 4, points[n / 4][n % 4][1] = n / 4, points[n / 4][n % 4][2] = 0;
@@ -101,9 +99,8 @@ static void test_grazing(void **state)
   pscn_scene_free(scene);
 }
 
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-  (void)state;
   struct pscn_scene *scene = make_balls(NULL);
   const struct pscn_ray ray = {{0.1, 0.2, -3}, {0, 0, 1}, 0, INFINITY};
   struct pscn_hits count;
@@ -138,9 +135,8 @@ static void *pool_resize(void *context, void *block, size_t size)
 }
 
 /* Whatever fails, rays have the same answers or none, and all memory is returned. */
-static void test_memory(void **state)
+TEST(test_memory)
 {
-  (void)state;
   static struct pscn_ray rays[COUNT];
   static struct pscn_hits as_ever[COUNT], counts[COUNT];
   struct pool pool = {0, 0, -1};
@@ -171,11 +167,4 @@ static void test_memory(void **state)
   }
   pscn_scene_free(scene);
   assert_int_equal(pool.blocks, 0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_grazing),
-                                     cmocka_unit_test(test_arguments), cmocka_unit_test(test_memory)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

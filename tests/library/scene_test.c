@@ -21,9 +21,8 @@ static enum pscn_status from_text(const char *text, const struct pscn_options *o
   return pscn_scene_from_text("given.pscn", text, strlen(text), options, out);
 }
 
-static void test_version(void **state)
+TEST(test_version)
 {
-  (void)state;
   char text[32];
   snprintf(text, sizeof text, "%d.%d.%d", PSCN_VERSION_MAJOR, PSCN_VERSION_MINOR, PSCN_VERSION_PATCH);
   assert_string_equal(text, PSCN_VERSION);
@@ -33,9 +32,8 @@ static void test_version(void **state)
 }
 
 /* A file, its text, and its points make the same scene. */
-static void test_origins(void **state)
+TEST(test_origins)
 {
-  (void)state;
   static const char path[] = PSCN_SOURCE_DIR "/scenes/bent.pscn";
   struct pscn_scene *file, *points, *none;
   double P[4][4][3], Q[4][4][3];
@@ -62,9 +60,8 @@ static void test_origins(void **state)
   pscn_scene_free(none);
 }
 
-static void test_messages(void **state)
+TEST(test_messages)
 {
-  (void)state;
   struct pscn_scene *scene;
   struct pscn_message message;
   assert_int_equal(from_text("#version 3.5;\ncamera {\n  loaction <0,0,1>\n}\nspher { }\n", NULL, &scene), PSCN_INPUT);
@@ -98,9 +95,8 @@ static void test_messages(void **state)
 }
 
 /* Each wrong argument is PSCN_USAGE, or PSCN_INPUT for data, with a message that names it. */
-static void test_arguments(void **state)
+TEST(test_arguments)
 {
-  (void)state;
   struct pscn_number named_so = {"x", 1}, infinite = {"Width", INFINITY};
   union {
     struct pscn_options options;
@@ -162,9 +158,8 @@ static void test_arguments(void **state)
 }
 
 /* A missing instruction set is reported. */
-static void test_kernel(void **state)
+TEST(test_kernel)
 {
-  (void)state;
   struct pscn_scene *scene;
   assert_int_equal(setenv("PSCN_KERNEL", "sparc", 1), 0);
   const enum pscn_status status = from_text(PATCH, NULL, &scene);
@@ -175,9 +170,8 @@ static void test_kernel(void **state)
 }
 
 /* The options take effect. */
-static void test_options(void **state)
+TEST(test_options)
 {
-  (void)state;
   static const char text[] = "#ifndef (Far) #error #end\n"
                              "camera { location <Far, image_width, image_height> look_at 0 }\n"
                              "#include \"part.inc\"\n";
@@ -259,9 +253,8 @@ static const char MANY[] = "#version 3.5;\n"
                            "object { B } object { B rotate <10, 20, 30> } union { object { B scale 2 } object { A } }\n"
                            "light_source { <0, 9, -9>, 1 } camera { location -9*z look_at 0 }\n";
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-  (void)state;
   struct pool pool = {0, 0, -1};
   struct pscn_options options = PSCN_OPTIONS;
   const struct pscn_number low = {"Low", 0.5};
@@ -303,9 +296,8 @@ static void test_memory(void **state)
 }
 
 /* Patches of points: memory that fails or is limited, and a coordinate that is not a number. */
-static void test_points(void **state)
+TEST(test_points)
 {
-  (void)state;
   struct pool pool = {0, 0, -1};
   struct pscn_options options = PSCN_OPTIONS;
   struct pscn_scene *scene;
@@ -340,9 +332,8 @@ static void test_points(void **state)
 }
 
 /* Without a scene, or where no answer is wanted. */
-static void test_nothing(void **state)
+TEST(test_nothing)
 {
-  (void)state;
   struct pscn_message message = {.text = NULL, .file = NULL};
   struct pscn_scene *scene;
   assert_string_equal(pscn_scene_messages(NULL), "error: memory is short\n");
@@ -358,10 +349,5 @@ static void test_nothing(void **state)
 int main(void)
 {
   (void)setlocale(LC_ALL, "");
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_version),   cmocka_unit_test(test_origins), cmocka_unit_test(test_messages),
-    cmocka_unit_test(test_arguments), cmocka_unit_test(test_kernel),  cmocka_unit_test(test_options),
-    cmocka_unit_test(test_memory),    cmocka_unit_test(test_points),  cmocka_unit_test(test_nothing),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -89,19 +89,14 @@ static void one_by_one(struct set_up *s)
   assert_true(followed > 0 || s->kind == WORLD_DEGENERATE || s->kind == WORLD_FLAT);
 }
 
-static void they_are_the_nearest_one_by_one(void **state)
-{
-  (void)state;
-  on_all_stages(SEED, SCENES, one_by_one);
-}
+TEST(they_are_the_nearest_one_by_one) { on_all_stages(SEED, SCENES, one_by_one); }
 
 enum { FOLDED_RAYS = 400 };
 
 /* The same for a patch that is folded along v = 1/2 and met twice in each point: both hits have the same u, within
  * its error. */
-static void folded_patches_too(void **state)
+TEST(folded_patches_too)
 {
-  (void)state;
   struct random random = {SEED + 9};
   world_net net[1];
   int wrong = 0, twice = 0;
@@ -141,9 +136,8 @@ static void fill_box(world_net nets[6])
 enum { CORNER_RAYS = 1000 };
 
 /* Also for rays through a corner: it belongs to the first of its patches, whichever of them the ray reaches first. */
-static void corners_too(void **state)
+TEST(corners_too)
 {
-  (void)state;
   struct random random = {SEED + 10};
   world_net nets[6];
   struct world world;
@@ -196,11 +190,7 @@ static void parts(struct set_up *s)
   assert_int_equal(wrong, 0);
 }
 
-static void parts_of_a_ray_have_theirs(void **state)
-{
-  (void)state;
-  on_all_stages(SEED + 1, SCENES, parts);
-}
+TEST(parts_of_a_ray_have_theirs) { on_all_stages(SEED + 1, SCENES, parts); }
 
 struct alone {
   const struct kept *lists; /* of each ray alone */
@@ -225,11 +215,7 @@ static void companions(struct set_up *s)
   assert_int_equal(alone.wrong, 0);
 }
 
-static void lists_do_not_depend_on_companions(void **state)
-{
-  (void)state;
-  on_all_stages(SEED + 2, SCENES, companions);
-}
+TEST(lists_do_not_depend_on_companions) { on_all_stages(SEED + 2, SCENES, companions); }
 
 /* Where the answer is certain, every instruction set counts the same hits and finds them on the same patches. */
 static void kernels(struct set_up *s)
@@ -254,17 +240,12 @@ static void kernels(struct set_up *s)
   assert_int_equal(wrong, 0);
 }
 
-static void kernels_agree(void **state)
-{
-  (void)state;
-  on_all_stages(SEED + 3, SCENES, kernels);
-}
+TEST(kernels_agree) { on_all_stages(SEED + 3, SCENES, kernels); }
 
 /* A stack of sheets, the lowest one first: a ray through them has one hit on each, in order. A ray exactly through
  * their corners, four to a layer, has one hit a layer, on the first of the four. */
-static void test_stack(void **state)
+TEST(test_stack)
 {
-  (void)state;
   enum { LAYERS = 3000, CORNERS = 100 };
   world_net *nets = calloc(LAYERS, sizeof *nets);
   assert_non_null(nets);
@@ -305,13 +286,12 @@ static void test_stack(void **state)
 
 /* Two patches that bend at a border, and one that crosses both there. Of hits that nothing tells apart, the first in
  * the scene is the nearest and the first of all hits, whichever patch it is on. */
-static void test_standing_on(void **state)
+TEST(test_standing_on)
 {
   enum { WALLS = 2, FLOOR = 2, ORDERS = 6, PACKETS = 8 };
   static const size_t order[ORDERS][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   world_net nets[3];
   struct random random = {SEED + 8};
-  (void)state;
   for (int o = 0; o < ORDERS; o++) {
     for (int n = 0; n < 16; n++) {
       const double away = n / 4, along = 2 * (n % 4) - 3;
@@ -358,9 +338,8 @@ static struct hit_list list_of(struct world *world, const struct ray *ray)
 
 /* A contact with a surface is not certain: a bowl touched at its bottom, a sheet met along a line, a start on a
  * surface. Beside it the answer is. */
-static void test_touching(void **state)
+TEST(test_touching)
 {
-  (void)state;
   static const double square[4] = {3, -1, -1, 3}; /* 3 x^2 on [-1,1] */
   world_net nets[2];
   for (int n = 0; n < 16; n++)
@@ -389,9 +368,8 @@ static void test_touching(void **state)
 
 /* All hits and the nearest hit agree on a possible hit whose t, as a double, equals an end of the ray: at a tip, and
  * on an open border. */
-static void test_next_to_an_end(void **state)
+TEST(test_next_to_an_end)
 {
-  (void)state;
   world_net net[1];
   for (int n = 0; n < 16; n++) { /* from the tip (0,0,0) to an open border in x = 3 */
     net[0][n / 4][n % 4][0] = n / 4, net[0][n / 4][n % 4][1] = (n / 4) * (n % 4);
@@ -419,9 +397,8 @@ static void test_next_to_an_end(void **state)
 
 /* Six patches that go twice round a point. A ray through it meets two sheets there, which are not one hit. A ray
  * beside it has two hits. */
-static void test_twice_round(void **state)
+TEST(test_twice_round)
 {
-  (void)state;
   static const double way[3][2] = {{18, 0}, {-9, 18}, {-9, -18}};
   world_net nets[6];
   for (int p = 0; p < 6; p++)
@@ -442,7 +419,7 @@ static void test_twice_round(void **state)
 
 /* Rays along patches that lie on one line cost more than their share of work. Their answers are then the same in a
  * packet as alone. */
-static void test_worn(void **state)
+TEST(test_worn)
 {
   enum { PATCHES = 5, PACKETS = 12 };
   static world_net nets[PATCHES];
@@ -451,7 +428,6 @@ static void test_worn(void **state)
   struct world world;
   struct method options;
   int grazing = 0, wrong = 0;
-  (void)state;
   method_default(solver_find("bernstein", 9), &options);
   options.split = 16;
   for (int p = 0; p < PATCHES; p++)
@@ -483,19 +459,5 @@ static void test_worn(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(they_are_the_nearest_one_by_one),
-    cmocka_unit_test(folded_patches_too),
-    cmocka_unit_test(corners_too),
-    cmocka_unit_test(parts_of_a_ray_have_theirs),
-    cmocka_unit_test(lists_do_not_depend_on_companions),
-    cmocka_unit_test(kernels_agree),
-    cmocka_unit_test(test_stack),
-    cmocka_unit_test(test_standing_on),
-    cmocka_unit_test(test_touching),
-    cmocka_unit_test(test_next_to_an_end),
-    cmocka_unit_test(test_twice_round),
-    cmocka_unit_test(test_worn),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

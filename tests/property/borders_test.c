@@ -74,9 +74,8 @@ static struct ray border_ray(struct random *random, world_net net, double u, dou
   return ray;
 }
 
-static void shared_borders_do_not_leak(void **state)
+TEST(shared_borders_do_not_leak)
 {
-  (void)state;
   static const double offsets[] = {0, 1e6, 1e9};
   struct random random = {SEED};
   int leaks = 0, invented = 0, hits = 0, misses = 0;
@@ -138,7 +137,7 @@ static void quarter_sheet(unsigned quarter, double z, double slope, double bend,
  * or where two of them meet, so far more places are left to the last resort than a ray has room for. The answer
  * depends only on the first sheet: not on those behind it, nor on the rays beside it, nor on which box the walk
  * reaches first. The sheets slant, so the boxes are long along the axis. */
-static void a_stack_is_met_on_its_first_sheet(void **state)
+TEST(a_stack_is_met_on_its_first_sheet)
 {
   enum { RAYS_ALONG = 6, APART = 90 };
   static const double beside[] = {0, 1.5, -0.75};
@@ -147,7 +146,6 @@ static void a_stack_is_met_on_its_first_sheet(void **state)
   static size_t place[4 * SHEETS];
   struct random random = {SEED + 1};
   struct world world;
-  (void)state;
   for (size_t k = 0; k < 4 * SHEETS; k++) place[k] = k;
   random_shuffle(&random, 4 * SHEETS, place);
   for (size_t s = 0; s < SHEETS; s++) {
@@ -183,7 +181,5 @@ static void a_stack_is_met_on_its_first_sheet(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {cmocka_unit_test(shared_borders_do_not_leak),
-                                     cmocka_unit_test(a_stack_is_met_on_its_first_sheet)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -262,18 +262,10 @@ static void each_kind(uint64_t seed, place_copy *place)
   }
 }
 
-static void copies_answer_as_patches_of_their_own(void **state)
-{
-  (void)state;
-  each_kind(SEED, random_map);
-}
+TEST(copies_answer_as_patches_of_their_own) { each_kind(SEED, random_map); }
 
 /* Then only the ray, mapped to the object, is off; a shear enlarges that error. */
-static void sheared_copies_answer_as_patches_of_their_own(void **state)
-{
-  (void)state;
-  each_kind(SEED + 5, exact_shear);
-}
+TEST(sheared_copies_answer_as_patches_of_their_own) { each_kind(SEED + 5, exact_shear); }
 
 /* Whether both answers to the ray agree where they are certain; *certain counts the hits on which they do. */
 static bool same_from_far(const struct pair *pair, const struct ray *ray, struct hit hits[2], int *certain)
@@ -289,9 +281,8 @@ static bool same_from_far(const struct pair *pair, const struct ray *ray, struct
 
 /* From so far away that double-double does not resolve the copy, the place on it has all its digits nevertheless. So
  * it has if the ray begins just before the copy, or just behind it, at a t whose last place is larger than the copy. */
-static void rays_meet_copies_from_very_far_away(void **state)
+TEST(rays_meet_copies_from_very_far_away)
 {
-  (void)state;
   static struct pair pair;
   struct random random = {SEED + 3};
   int wrong = 0, certain[3] = {0};
@@ -317,9 +308,8 @@ static void rays_meet_copies_from_very_far_away(void **state)
 
 /* Of surfaces that are some roundings apart, the nearest is known for certain or not at all. This holds even where
  * the errors in the object's coordinates leave open which of two leaves has the root. */
-static void nearest_of_copies_beside_each_other(void **state)
+TEST(nearest_of_copies_beside_each_other)
 {
-  (void)state;
   static struct pair pair;
   struct random random = {SEED + 4};
   int wrong = 0, certain = 0;
@@ -341,9 +331,8 @@ static void nearest_of_copies_beside_each_other(void **state)
 }
 
 /* A patch that is small beside the whole object is as certain in copies as by itself. */
-static void small_parts_of_copies_are_certain(void **state)
+TEST(small_parts_of_copies_are_certain)
 {
-  (void)state;
   static struct pair pair;
   struct random random = {SEED + 9};
   static const double parts[] = {0x1p-12, 0x1p-30, 0x1p-57, 0x1p-100};
@@ -356,9 +345,8 @@ static void small_parts_of_copies_are_certain(void **state)
 
 /* Copies that lie deep inside one another do not share leaves: each ray would be mapped to the coordinates of nearly
  * all of them. */
-static void deep_copies_have_leaves_of_their_own(void **state)
+TEST(deep_copies_have_leaves_of_their_own)
 {
-  (void)state;
   static struct pair pair;
   struct random random = {SEED + 10};
   pair_open(&pair, WORLD_GRID, &random, NULL, 0, 0, random_map, 1);
@@ -372,9 +360,8 @@ static void deep_copies_have_leaves_of_their_own(void **state)
 
 /* The object's leaves are no farther from a copy's surface than `loose` says, which is also how far rays that leave
  * the surface start from it. The control points show it: they are rounded, those of leaves are not. */
-static void leaves_are_no_looser_than_told(void **state)
+TEST(leaves_are_no_looser_than_told)
 {
-  (void)state;
   static struct pair pair;
   struct random random = {SEED + 11};
   pair_open(&pair, WORLD_WILD, &random, NULL, 0, 0, random_map, 1);
@@ -399,14 +386,5 @@ static void leaves_are_no_looser_than_told(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(copies_answer_as_patches_of_their_own),
-    cmocka_unit_test(sheared_copies_answer_as_patches_of_their_own),
-    cmocka_unit_test(rays_meet_copies_from_very_far_away),
-    cmocka_unit_test(nearest_of_copies_beside_each_other),
-    cmocka_unit_test(small_parts_of_copies_are_certain),
-    cmocka_unit_test(deep_copies_have_leaves_of_their_own),
-    cmocka_unit_test(leaves_are_no_looser_than_told),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -101,9 +101,8 @@ static void pass_borders(struct sharing *sharing, struct random *random, double 
 }
 
 /* The control points are off by as much as copies may be that share. */
-static void copies_are_met_where_they_are(void **state)
+TEST(copies_are_met_where_they_are)
 {
-  (void)state;
   static struct sharing sharing;
   struct random random = {SEED};
   sharing_open(&sharing, &random, (double[3]){1, 1, 1}, MOST_OFF / 8);
@@ -113,9 +112,8 @@ static void copies_are_met_where_they_are(void **state)
 
 /* Here only the start of a ray is off. In the object's coordinates it is as far from the object as the copy is long,
  * times how much wider the object is. */
-static void slender_copies_are_met_up_to_their_borders(void **state)
+TEST(slender_copies_are_met_up_to_their_borders)
 {
-  (void)state;
   static struct sharing sharing;
   static const double sizes[][3] = {{1, 0x1p-17, 0x1p-17}, {0x1p-17, 0x1p-17, 1}};
   struct random random = {SEED + 1};
@@ -129,9 +127,5 @@ static void slender_copies_are_met_up_to_their_borders(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(copies_are_met_where_they_are),
-    cmocka_unit_test(slender_copies_are_met_up_to_their_borders),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -86,11 +86,10 @@ static double crossings_by_lines(struct world *world, struct random *random)
 }
 
 /* A leaf's area is a little smaller than that of the face of the box along it. */
-static void lines_cross_as_many(void **state)
+TEST(lines_cross_as_many)
 {
   static const enum world_kind kinds[] = {WORLD_GRID, WORLD_WILD, WORLD_DOME, WORLD_LOW};
   struct random random = {SEED};
-  (void)state;
   for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
     world_net nets[WORLD_MAX];
     struct world world;
@@ -134,7 +133,7 @@ static void make_rays(struct random *random, struct ray rays[RAYS])
   }
 }
 
-static void answers_do_not_depend_on_the_order_of_leaves(void **state)
+TEST(answers_do_not_depend_on_the_order_of_leaves)
 {
   static world_net nets[NETS];
   static struct ray rays[RAYS];
@@ -142,7 +141,6 @@ static void answers_do_not_depend_on_the_order_of_leaves(void **state)
   struct random random = {SEED + 1};
   struct world world;
   int wrong = 0, hits = 0;
-  (void)state;
   open_deep(&world, &random, nets);
   make_rays(&random, rays);
   struct model_tree *tree = tree_of(&world);
@@ -163,13 +161,4 @@ static void answers_do_not_depend_on_the_order_of_leaves(void **state)
   world_close(&world);
   assert_int_equal(wrong, 0);
   assert_true(hits > RAYS);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(lines_cross_as_many),
-    cmocka_unit_test(answers_do_not_depend_on_the_order_of_leaves),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,9 +60,8 @@ static void check_rays(struct world *world, const struct ray rays[RAYS], int *hi
   }
 }
 
-static void the_first_of_a_plane_is_the_nearest(void **state)
+TEST(the_first_of_a_plane_is_the_nearest)
 {
-  (void)state;
   struct random random = {SEED};
   int hits = 0;
   for (int scene = 0; scene < SCENES; scene++) {
@@ -103,9 +102,8 @@ static void open_folded(struct random *random, int axis, double value, struct wo
 }
 
 /* An open question about a patch behind the plane does not make the hit grazing, whichever the ray reaches first. */
-static void what_stands_behind_in_a_plane_is_no_doubt(void **state)
+TEST(what_stands_behind_in_a_plane_is_no_doubt)
 {
-  (void)state;
   struct random random = {SEED + 4};
   int hits = 0;
   for (int scene = 0; scene < SCENES; scene++) {
@@ -125,9 +123,8 @@ static void what_stands_behind_in_a_plane_is_no_doubt(void **state)
 }
 
 /* A ray that starts exactly in a plane meets nothing of it; nor does one that starts a little behind it. */
-static void what_starts_in_a_plane_leaves_it(void **state)
+TEST(what_starts_in_a_plane_leaves_it)
 {
-  (void)state;
   struct random random = {SEED + 3};
   int hits = 0, touching = 0;
   for (int scene = 0; scene < SCENES; scene++) {
@@ -158,9 +155,8 @@ static void what_starts_in_a_plane_leaves_it(void **state)
 }
 
 /* However slowly a ray leaves its plane, and whatever is open about the patches there, it meets none of them. */
-static void what_leaves_a_plane_slowly_does_not_meet_it(void **state)
+TEST(what_leaves_a_plane_slowly_does_not_meet_it)
 {
-  (void)state;
   struct random random = {SEED + 5};
   enum { FEW = 3 };
   for (int scene = 0; scene < SCENES; scene++) {
@@ -195,9 +191,8 @@ static void what_leaves_a_plane_slowly_does_not_meet_it(void **state)
 
 /* A ray that starts in the box of a patch of the plane may touch the patch. The answer does not depend on how it
  * leaves: no hit, and grazing if a ray that leaves straight across is grazing. */
-static void what_leaves_a_plane_slowly_is_judged_where_it_starts(void **state)
+TEST(what_leaves_a_plane_slowly_is_judged_where_it_starts)
 {
-  (void)state;
   struct random random = {SEED + 6};
   int touching = 0;
   for (int scene = 0; scene < SCENES; scene++) {
@@ -230,9 +225,8 @@ static void what_leaves_a_plane_slowly_is_judged_where_it_starts(void **state)
 }
 
 /* Nearly all rays meet several patches of the plane, and few meet a border. */
-static void a_plane_costs_no_last_resort(void **state)
+TEST(a_plane_costs_no_last_resort)
 {
-  (void)state;
   struct random random = {SEED + 1};
   world_net nets[MOST];
   struct world world;
@@ -246,9 +240,8 @@ static void a_plane_costs_no_last_resort(void **state)
   world_close(&world);
 }
 
-static void planes_are_found(void **state)
+TEST(planes_are_found)
 {
-  (void)state;
   static const int axis[] = {0, 1, 1, 2, 1, 2};
   struct random random = {SEED + 2};
   world_net nets[6];
@@ -273,16 +266,4 @@ static void planes_are_found(void **state)
   free(planes);
   assert_int_equal(flats_find(nets[4], sizeof nets[0], 1, plane, &planes), STATUS_OK);
   assert_true(plane[0] == 0 && planes == NULL);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(planes_are_found),
-                                     cmocka_unit_test(the_first_of_a_plane_is_the_nearest),
-                                     cmocka_unit_test(what_stands_behind_in_a_plane_is_no_doubt),
-                                     cmocka_unit_test(what_starts_in_a_plane_leaves_it),
-                                     cmocka_unit_test(what_leaves_a_plane_slowly_does_not_meet_it),
-                                     cmocka_unit_test(what_leaves_a_plane_slowly_is_judged_where_it_starts),
-                                     cmocka_unit_test(a_plane_costs_no_last_resort)};
-  return cmocka_run_group_tests_name("flats", tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static const int scene_exponents[] = {20, -20, 100, -100, 200, -200, 500, -500, 
 enum { EXPONENTS = sizeof scene_exponents / sizeof *scene_exponents, EXPONENTS_OF_FLOAT = 4 };
 
 /* Scaling by a power of two changes no digit of any answer. */
-static void powers_of_two_scale_exactly(void **state)
+TEST(powers_of_two_scale_exactly)
 {
-  (void)state;
   struct random random = {SEED};
   world_net nets[WORLD_MAX], other[WORLD_MAX];
   int wrong = 0, hits = 0;
@@ -86,9 +85,8 @@ static void powers_of_two_scale_exactly(void **state)
 
 /* x, y, z become y, z, x. The axis along which the ray is longest moves along, and with it the two planes, so no
  * digit of the place changes. (The normal's length is summed in another order.) */
-static void turned_axes_answer_alike(void **state)
+TEST(turned_axes_answer_alike)
 {
-  (void)state;
   struct random random = {SEED + 9};
   world_net nets[WORLD_MAX], other[WORLD_MAX];
   int wrong = 0, hits = 0;
@@ -126,9 +124,8 @@ static void turned_axes_answer_alike(void **state)
 }
 
 /* The order of the patches in the scene decides only which of those that meet in the hit point is answered. */
-static void the_order_of_patches_does_not_matter(void **state)
+TEST(the_order_of_patches_does_not_matter)
 {
-  (void)state;
   struct random random = {SEED + 10};
   world_net nets[WORLD_MAX], other[WORLD_MAX];
   int wrong = 0, elsewhere = 0;
@@ -165,9 +162,8 @@ static void the_order_of_patches_does_not_matter(void **state)
 }
 
 /* A million times as large, and a million away: exactly the same geometry in other numbers. */
-static void scaled_and_moved_scenes_answer_alike(void **state)
+TEST(scaled_and_moved_scenes_answer_alike)
 {
-  (void)state;
   struct random random = {SEED + 1};
   static const struct {
     double factor, offset;
@@ -202,9 +198,8 @@ static void scaled_and_moved_scenes_answer_alike(void **state)
 
 /* Directions scaled by powers of two answer exactly alike, by other factors within a rounding; so do the shortest
  * and longest doubles. */
-static void the_length_of_the_direction_does_not_matter(void **state)
+TEST(the_length_of_the_direction_does_not_matter)
 {
-  (void)state;
   struct random random = {SEED + 2};
   static const int exponents[] = {1, -30, 190, -190, 300, -300, 900, -900};
   world_net nets[WORLD_MAX];
@@ -236,9 +231,8 @@ static void the_length_of_the_direction_does_not_matter(void **state)
   assert_true(hits > WORLD_KINDS * RAYS / 4);
 }
 
-static void odd_lengths(void **state)
+TEST(odd_lengths)
 {
-  (void)state;
   struct random random = {SEED + 3};
   world_net nets[WORLD_MAX];
   struct world world;
@@ -262,9 +256,8 @@ static void odd_lengths(void **state)
 }
 
 /* The answer does not depend on how a patch is cut into leaves, nor on the method that finds the roots. */
-static void cuts_and_methods_answer_alike(void **state)
+TEST(cuts_and_methods_answer_alike)
 {
-  (void)state;
   struct random random = {SEED + 5};
   static const int splits[] = {1, 2, 3, 5, 7, 10, 49, 64};
   world_net nets[WORLD_MAX];
@@ -304,9 +297,8 @@ static void cuts_and_methods_answer_alike(void **state)
   assert_true(hits > WORLD_KINDS * 8 * RAYS / 4);
 }
 
-static void warm_starts_are_reproducible(void **state)
+TEST(warm_starts_are_reproducible)
 {
-  (void)state;
   struct random random = {SEED + 8};
   world_net nets[WORLD_MAX];
   for (size_t s = 0; s < solver_count(); s++) {
@@ -333,9 +325,8 @@ static void warm_starts_are_reproducible(void **state)
   }
 }
 
-static void an_empty_scene_is_missed(void **state)
+TEST(an_empty_scene_is_missed)
 {
-  (void)state;
   struct world world;
   world_net nets[1];
   world_open(&world, nets, 0, NULL);
@@ -353,16 +344,5 @@ static void an_empty_scene_is_missed(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(powers_of_two_scale_exactly),
-    cmocka_unit_test(turned_axes_answer_alike),
-    cmocka_unit_test(the_order_of_patches_does_not_matter),
-    cmocka_unit_test(scaled_and_moved_scenes_answer_alike),
-    cmocka_unit_test(the_length_of_the_direction_does_not_matter),
-    cmocka_unit_test(odd_lengths),
-    cmocka_unit_test(cuts_and_methods_answer_alike),
-    cmocka_unit_test(warm_starts_are_reproducible),
-    cmocka_unit_test(an_empty_scene_is_missed),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -29,9 +29,8 @@ static bool next_to_border(const struct hit hits[], int count)
   return false;
 }
 
-static void intervals_of_t_are_respected(void **state)
+TEST(intervals_of_t_are_respected)
 {
-  (void)state;
   struct random random = {SEED + 4};
   world_net nets[WORLD_MAX];
   int wrong = 0, counted = 0;
@@ -93,9 +92,8 @@ static void intervals_of_t_are_respected(void **state)
 
 /* A ray that leaves a hit, to either side, at no flat angle, does not meet the sheet it leaves. The patches' radii
  * of curvature are above 1/100; the sheet is met again no nearer than that times the sine of 0.1. */
-static void leaving_a_surface_does_not_meet_it(void **state)
+TEST(leaving_a_surface_does_not_meet_it)
 {
-  (void)state;
   struct random random = {SEED + 6};
   static const double offsets[] = {0, 1e3, 1e6};
   world_net nets[WORLD_MAX], moved[WORLD_MAX];
@@ -131,9 +129,8 @@ static void leaving_a_surface_does_not_meet_it(void **state)
 }
 
 /* Two sheets 1e-9 apart are two: leaving the first one, a ray meets the second. */
-static void a_sheet_right_behind_is_not_skipped(void **state)
+TEST(a_sheet_right_behind_is_not_skipped)
 {
-  (void)state;
   struct random random = {SEED + 7};
   const double gap = 1e-9;
   for (int scene = 0; scene < 6; scene++) {
@@ -164,10 +161,5 @@ static void a_sheet_right_behind_is_not_skipped(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(intervals_of_t_are_respected),
-    cmocka_unit_test(leaving_a_surface_does_not_meet_it),
-    cmocka_unit_test(a_sheet_right_behind_is_not_skipped),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -54,9 +54,8 @@ static double normal_off(world_net net, const struct hit *hit, double u)
   return off;
 }
 
-static void normals_next_to_poles_are_those_of_the_surface(void **state)
+TEST(normals_next_to_poles_are_those_of_the_surface)
 {
-  (void)state;
   struct random random = {SEED};
   int certain[KINDS] = {0};
   for (int n = 0; n < PATCHES; n++) {
@@ -98,9 +97,8 @@ static void cap(struct random *random, world_net net)
 }
 
 /* Far from zero, and in scenes of all sizes. */
-static void poles_that_are_rounded_point_by_point_have_their_normals(void **state)
+TEST(poles_that_are_rounded_point_by_point_have_their_normals)
 {
-  (void)state;
   struct random random = {SEED};
   int certain = 0;
   for (int n = 0; n < ROUNDED_POLES; n++) {
@@ -131,11 +129,4 @@ static void poles_that_are_rounded_point_by_point_have_their_normals(void **stat
     if (!(off <= SURE)) fail_msg("2^%d away, size 2^%d, u %.3g v %.3g: off by %.2g", away, exponent, hit.u, hit.v, off);
   }
   assert_true(certain > ROUNDED_POLES / 16);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(normals_next_to_poles_are_those_of_the_surface),
-                                     cmocka_unit_test(poles_that_are_rounded_point_by_point_have_their_normals)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,21 +41,16 @@ static void companions(struct set_up *s)
   assert_int_equal(alone.wrong, 0);
 }
 
-static void answers_do_not_depend_on_companions(void **state)
-{
-  (void)state;
-  on_all_stages(SEED, SCENES, companions);
-}
+TEST(answers_do_not_depend_on_companions) { on_all_stages(SEED, SCENES, companions); }
 
 /* Rays in all directions, in a scene with so many leaves that each ray goes through the hierarchy separately. */
-static void rays_apart_do_not_depend_on_companions(void **state)
+TEST(rays_apart_do_not_depend_on_companions)
 {
   static world_net nets[WORLD_MAX];
   struct random random = {SEED + 4};
   struct world world;
   struct method options;
   int wrong = 0, hits = 0;
-  (void)state;
   method_default(solver_find("bernstein", 9), &options);
   options.split = 64;
   const size_t count = world_fill(WORLD_GRID, &random, nets);
@@ -82,7 +77,7 @@ static void rays_apart_do_not_depend_on_companions(void **state)
 
 /* Patches all through one another in one place. Many rays pass more leaves than a ray may be tried on. Which leaves
  * are tried depends on their order; what is certain of the ray must not. */
-static void exhausted_rays_do_not_depend_on_companions(void **state)
+TEST(exhausted_rays_do_not_depend_on_companions)
 {
   enum { HEAP = 20000, RAYS = 120, FEW = 3, BUDGET = 3 << 14 };
   struct random random = {SEED + 5};
@@ -90,7 +85,6 @@ static void exhausted_rays_do_not_depend_on_companions(void **state)
   struct method options;
   struct ray rays[RAYS];
   int wrong = 0, ended = 0;
-  (void)state;
   method_default(solver_find("bernstein", 9), &options);
   options.split = 2;
   world_net *nets = malloc(HEAP * sizeof *nets);
@@ -125,7 +119,7 @@ static void exhausted_rays_do_not_depend_on_companions(void **state)
 /* Bent cards that share a corner, more than a ray through that corner has room for. Which of them are left open
  * depends on whether the walk reached patches before the corner first. The range of rays from far away begins
  * somewhere among the cards. */
-static void rays_through_a_crowded_corner_do_not_depend_on_companions(void **state)
+TEST(rays_through_a_crowded_corner_do_not_depend_on_companions)
 {
   enum { CARDS = 200, RAYS = 8000, FEW = 8 };
   static world_net nets[CARDS];
@@ -133,7 +127,6 @@ static void rays_through_a_crowded_corner_do_not_depend_on_companions(void **sta
   struct world world;
   struct method options;
   int wrong = 0, certain = 0;
-  (void)state;
   method_default(solver_find("bernstein", 9), &options);
   for (size_t p = 0; p < CARDS; p++) {
     for (int k = 0; k < 3; k++) {
@@ -192,11 +185,7 @@ static void occlusion(struct set_up *s)
   assert_int_equal(wrong, 0);
 }
 
-static void occluded_is_whether_there_is_a_hit(void **state)
-{
-  (void)state;
-  on_all_stages(SEED + 1, SCENES, occlusion);
-}
+TEST(occluded_is_whether_there_is_a_hit) { on_all_stages(SEED + 1, SCENES, occlusion); }
 
 /* Compares every kernel that the processor can run with the plainest, the last of them; they may round differently. */
 static void kernels(struct set_up *s)
@@ -220,11 +209,7 @@ static void kernels(struct set_up *s)
   assert_int_equal(wrong, 0);
 }
 
-static void kernels_agree(void **state)
-{
-  (void)state;
-  on_all_stages(SEED + 2, SCENES, kernels);
-}
+TEST(kernels_agree) { on_all_stages(SEED + 2, SCENES, kernels); }
 
 /* Another order of the patches: the same t and, unless hits are tied, the same patch. */
 static void shuffled(struct set_up *s)
@@ -254,11 +239,7 @@ static void shuffled(struct set_up *s)
   assert_true(tied < STAGE_RAYS * 2 / 3); /* flat patches, which meet at borders and lie on each other */
 }
 
-static void answers_do_not_depend_on_the_order_of_patches(void **state)
-{
-  (void)state;
-  on_all_stages(SEED + 3, SCENES, shuffled);
-}
+TEST(answers_do_not_depend_on_the_order_of_patches) { on_all_stages(SEED + 3, SCENES, shuffled); }
 
 int main(void)
 {
@@ -267,14 +248,5 @@ int main(void)
   print_message("seed %d; kernels here:", SEED);
   for (size_t k = 0; k < count; k++) print_message(" %s", here[k]->name);
   print_message("\n");
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(answers_do_not_depend_on_companions),
-    cmocka_unit_test(rays_apart_do_not_depend_on_companions),
-    cmocka_unit_test(exhausted_rays_do_not_depend_on_companions),
-    cmocka_unit_test(rays_through_a_crowded_corner_do_not_depend_on_companions),
-    cmocka_unit_test(occluded_is_whether_there_is_a_hit),
-    cmocka_unit_test(kernels_agree),
-    cmocka_unit_test(answers_do_not_depend_on_the_order_of_patches),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

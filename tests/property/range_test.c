@@ -105,9 +105,8 @@ static int check(struct world *world, const struct shot shots[RAYS], double size
   return wrong;
 }
 
-static void rays_and_patches_of_all_sizes(void **state)
+TEST(rays_and_patches_of_all_sizes)
 {
-  (void)state;
   struct random random = {SEED};
   int wrong = 0;
   for (int scene = 0; scene < SCENES; scene++) {
@@ -152,9 +151,8 @@ static void crowd_fill(struct random *random, world_net nets[CROWD])
 }
 
 /* A ray from so far away that only wide arithmetic tells one hit from another meets what it meets from nearby. */
-static void far_rays_meet_what_near_ones_meet(void **state)
+TEST(far_rays_meet_what_near_ones_meet)
 {
-  (void)state;
   struct random random = {SEED + 4};
   int sure[2] = {0, 0}, wrong = 0;
   for (int crowd = 0; crowd < CROWDS; crowd++) {
@@ -192,9 +190,8 @@ enum { ACROSS = 24, FAR_RAYS = 64, FEW_LEAVES = 40 };
 
 /* However far away a ray starts, it is tried only on the leaves along it: from 2^40 to 2^100 scenes away, exactly
  * along a diagonal over a floor of patches. */
-static void far_rays_pass_by_what_is_not_on_their_way(void **state)
+TEST(far_rays_pass_by_what_is_not_on_their_way)
 {
-  (void)state;
   static world_net nets[ACROSS * ACROSS];
   struct random random = {SEED + 1};
   for (int n = 0; n < 16 * ACROSS * ACROSS; n++) {
@@ -220,9 +217,8 @@ static void far_rays_pass_by_what_is_not_on_their_way(void **state)
 }
 
 /* If all points are the origin, the scene has no size; rays beside it are not tried on any patch. */
-static void rays_pass_by_a_scene_of_one_point(void **state)
+TEST(rays_pass_by_a_scene_of_one_point)
 {
-  (void)state;
   static world_net nets[ACROSS];
   struct random random = {SEED + 2};
   struct world world;
@@ -252,9 +248,8 @@ static void floor_at(double height, double size, double bend, world_net net)
 /* Where scaling takes digits off a direction, or off an end of the ray, and the answer turns on them, nothing is
  * certain: a ray that passes a corner by less than a double resolves beside its length, and hits one place from an
  * end. The last ray keeps all digits. */
-static void what_scaling_takes_away_is_in_doubt(void **state)
+TEST(what_scaling_takes_away_is_in_doubt)
 {
-  (void)state;
   static const double least = 0x1p-1074, tiny = 0x1p-1040;
   const struct ray rays[] = {{{tiny, tiny, 0}, {0, 0, tiny}, 0, nextafter(3, 4)},
                              {{tiny, tiny, 0}, {0, 0, tiny}, nextafter(3, 0), INFINITY},
@@ -279,9 +274,8 @@ static void what_scaling_takes_away_is_in_doubt(void **state)
 
 /* The ray meets a pole exactly, next to its start. t is so small that no double can hold its rounding error; still
  * the pole is known to lie on one side of t_min. */
-static void poles_next_to_the_start_are_told(void **state)
+TEST(poles_next_to_the_start_are_told)
 {
-  (void)state;
   struct random random = {SEED + 3};
   world_net net[1];
   struct world world;
@@ -301,9 +295,8 @@ static void poles_next_to_the_start_are_told(void **state)
 }
 
 /* Hits on patches far smaller than 2^-100 of their scene, the smallest size of a frame, have all their parts. */
-static void patches_lost_in_their_scene_have_normals(void **state)
+TEST(patches_lost_in_their_scene_have_normals)
 {
-  (void)state;
   for (int k = 100; k < 800; k += 20) {
     world_net nets[2];
     struct world world;
@@ -326,9 +319,8 @@ static void patches_lost_in_their_scene_have_normals(void **state)
 }
 
 /* A ray that starts exactly in a corner is known not to meet it. */
-static void rays_from_a_corner_leave_it(void **state)
+TEST(rays_from_a_corner_leave_it)
 {
-  (void)state;
   static const double ways[][3] = {{-1, -2, 3}, {-1, 2, -5}, {3, -7, 1}, {0, 0, 1}};
   world_net net[1];
   struct world world;
@@ -346,9 +338,8 @@ static void rays_from_a_corner_leave_it(void **state)
 
 /* Beyond its corner, in the same leaf or on borders too, such a ray meets what a ray meets that starts before the
  * corner and whose range begins there. A whole patch is one leaf; every third patch has a pole in that corner. */
-static void rays_from_a_corner_meet_what_is_beyond(void **state)
+TEST(rays_from_a_corner_meet_what_is_beyond)
 {
-  (void)state;
   enum { CORNER_SCENES = 600 };
   struct random random = {SEED + 4};
   int hits = 0, certain = 0;
@@ -385,18 +376,4 @@ static void rays_from_a_corner_meet_what_is_beyond(void **state)
   }
   print_message("%d hits, %d of %d certain\n", hits, certain, CORNER_SCENES);
   assert_in_range(hits, CORNER_SCENES / 8, CORNER_SCENES);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_lost_in_their_scene_have_normals),
-                                     cmocka_unit_test(poles_next_to_the_start_are_told),
-                                     cmocka_unit_test(rays_from_a_corner_leave_it),
-                                     cmocka_unit_test(rays_from_a_corner_meet_what_is_beyond),
-                                     cmocka_unit_test(far_rays_meet_what_near_ones_meet),
-                                     cmocka_unit_test(rays_and_patches_of_all_sizes),
-                                     cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way),
-                                     cmocka_unit_test(rays_pass_by_a_scene_of_one_point),
-                                     cmocka_unit_test(what_scaling_takes_away_is_in_doubt)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,9 +125,8 @@ static void check_planes(struct subject *s, struct random *random)
   if (t != 0) worst_t = worse(worst_t, (double)(quad_abs(got - t) / quad_abs(t)) / UNIT_ROUNDOFF);
 }
 
-static void the_plane_polynomials_are_within_their_error(void **state)
+TEST(the_plane_polynomials_are_within_their_error)
 {
-  (void)state;
   on_all_leaves(SEED, 0, CASES, check_planes);
   print_message("moments off by %.3g last places; coefficients %.3g of the bound; t of a place %.3g roundings\n",
                 worst_moment, worst_net, worst_t);
@@ -234,9 +233,8 @@ static void check_refine(struct subject *s, struct random *random)
 }
 
 /* However bent the leaves are, and whether or not they are cut exactly. */
-static void proven_roots_are_where_they_are_said_to_be(void **state)
+TEST(proven_roots_are_where_they_are_said_to_be)
 {
-  (void)state;
   static const int splits[] = {0, 1, 2, 3, 7, 32};
   int alone = 0;
   for (size_t k = 0; k < sizeof splits / sizeof *splits; k++) {
@@ -275,9 +273,8 @@ static void check_fan(struct subject *s, struct random *random)
 }
 
 /* The Jacobian is singular along the pole. */
-static void roots_next_to_poles_are_alone_where_they_are_said_to_be(void **state)
+TEST(roots_next_to_poles_are_alone_where_they_are_said_to_be)
 {
-  (void)state;
   static const int splits[] = {3, 8, 32};
   for (size_t k = 0; k < sizeof splits / sizeof *splits; k++) {
     fan_roots = (struct tally){0}, by_pole = 0;
@@ -342,9 +339,8 @@ static void check_leaf_root(struct subject *s, struct random *random)
   }
 }
 
-static void roots_of_leaves_that_bend_little_are_right_to_the_last_places(void **state)
+TEST(roots_of_leaves_that_bend_little_are_right_to_the_last_places)
 {
-  (void)state;
   on_all_leaves(SEED + 2, 0, CASES, check_leaf_root);
   on_all_leaves(SEED + 3, 32, CASES / 4, check_leaf_root); /* as many leaves as are cut exactly */
   print_message("%d proven, %d of them alone, %d by its quadric; at most %.3g of the radius away\n", leaf_roots.exist,
@@ -360,11 +356,5 @@ static void roots_of_leaves_that_bend_little_are_right_to_the_last_places(void *
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_plane_polynomials_are_within_their_error),
-    cmocka_unit_test(proven_roots_are_where_they_are_said_to_be),
-    cmocka_unit_test(roots_next_to_poles_are_alone_where_they_are_said_to_be),
-    cmocka_unit_test(roots_of_leaves_that_bend_little_are_right_to_the_last_places),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -29,9 +29,8 @@ static void village(struct random *random, const double at[3], world_net nets[VI
 }
 
 /* Rays at a village are answered as if nothing else existed, and are tried on no more leaves. */
-static void what_is_far_away_costs_nothing(void **state)
+TEST(what_is_far_away_costs_nothing)
 {
-  (void)state;
   static world_net nets[VILLAGERS + 1];
   size_t hits = 0;
   static const double distances[] = {1e3, 1e6, 1e9, 1e12, 1e15, 1e17, 1e20, 1e30, 1e45, 1e100, 1e300};
@@ -85,9 +84,8 @@ static void square(double size, bool corner, world_net net)
 }
 
 /* Patches in one place, some up to 1e560 times as large as others: each is hit as if it were alone, in any order. */
-static void sizes_have_nothing_to_do_with_each_other(void **state)
+TEST(sizes_have_nothing_to_do_with_each_other)
 {
-  (void)state;
   enum { SCENES = 400, MOST = 5, LEAST_APART = 3, FARTHEST = 280 };
   struct random random = {SEED};
   size_t hits = 0;
@@ -180,9 +178,8 @@ static void expect_frames(const struct scene *scene, int frames)
   model_destroy(model);
 }
 
-static void frames_within_frames_take_little_stack(void **state)
+TEST(frames_within_frames_take_little_stack)
 {
-  (void)state;
   static world_net nets[BOWLS + AT_THE_BOTTOM];
   static struct deep d;
   for (int crowd = 0; crowd < 2; crowd++) { /* with the crowd, rays travel separately */
@@ -234,8 +231,5 @@ static void frames_within_frames_take_little_stack(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_far_away_costs_nothing),
-                                     cmocka_unit_test(sizes_have_nothing_to_do_with_each_other),
-                                     cmocka_unit_test(frames_within_frames_take_little_stack)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

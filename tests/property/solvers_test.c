@@ -27,9 +27,8 @@ static int certain_hits(const struct hit hits[RAYS])
   return count;
 }
 
-static void answers_are_the_defaults(void **state)
+TEST(answers_are_the_defaults)
 {
-  (void)state;
   static const struct {
     const char *name, *solver;
     enum start start;
@@ -81,9 +80,8 @@ static void answers_are_the_defaults(void **state)
   for (int way = 1; way <= WAYS; way++) assert_true(certain[way] >= certain[0] - certain[0] / 500);
 }
 
-static void answers_do_not_depend_on_companions(void **state)
+TEST(answers_do_not_depend_on_companions)
 {
-  (void)state;
   struct random random = {SEED + 1};
   int wrong = 0;
   for (int scene = 0; scene < SCENES * WORLD_KINDS; scene++) {
@@ -109,9 +107,8 @@ static void answers_do_not_depend_on_companions(void **state)
 
 /* Without polish the solver's roots are the answer, whatever bounds on the coefficients say that are known beforehand.
  * On rays near the axis of a height field these exceed all coefficients of r; yet every hit is found. */
-static void bare_roots_are_the_solvers_own(void **state)
+TEST(bare_roots_are_the_solvers_own)
 {
-  (void)state;
   static const double slants[2] = {0.12, 0.012}; /* 7 degrees, 0.7 degrees */
   enum { FIELDS = 8, SPLITS = 3 };
   static const int splits[SPLITS] = {0, 1, 3};
@@ -159,9 +156,8 @@ static void bare_roots_are_the_solvers_own(void **state)
 /* If eps asks for less than a rounding, the methods that move all roots at once end beside the real axis; their
  * values are accepted as real. The paper's form then loses no more hits than at an eps that they reach, and has no
  * more phantoms. */
-static void rounding_makes_no_root_complex(void **state)
+TEST(rounding_makes_no_root_complex)
 {
-  (void)state;
   static const double eps[2] = {1e-8, 1e-15};
   static const char *const methods[] = {"aberth", "durand_kerner"};
   enum { SLACK = 4 };
@@ -203,11 +199,5 @@ static void rounding_makes_no_root_complex(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(answers_are_the_defaults),
-    cmocka_unit_test(answers_do_not_depend_on_companions),
-    cmocka_unit_test(bare_roots_are_the_solvers_own),
-    cmocka_unit_test(rounding_makes_no_root_complex),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

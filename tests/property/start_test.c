@@ -44,9 +44,8 @@ static void check(const struct reference *reference, const struct ray *ray, cons
   worst[near] = worse(worst[near], (double)quad_abs(hit->t - exact.t) / place);
 }
 
-static void hits_next_to_the_start_have_their_last_places(void **state)
+TEST(hits_next_to_the_start_have_their_last_places)
 {
-  (void)state;
   struct random random = {SEED};
   world_net nets[WORLD_MAX];
   for (int scene = 0; scene < SCENES; scene++) {
@@ -76,10 +75,4 @@ static void hits_next_to_the_start_have_their_last_places(void **state)
   assert_true(told[0] > SCENES * PACKETS * RAYS / 8 && told[1] > SCENES * PACKETS * RAYS / 4);
   assert_true(worst[0] <= 2);
   assert_true(worst[1] <= 0.51);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(hits_next_to_the_start_have_their_last_places)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -151,36 +151,19 @@ static void try_teams(size_t side, size_t copies, int split, bool kept)
   trial_close(&trial);
 }
 
-static void kept(void **state)
-{
-  (void)state;
-  try_teams(40, 0, 3, true);
-}
+TEST(kept) { try_teams(40, 0, 3, true); }
 
-static void not_kept_for_a_split(void **state)
-{
-  (void)state;
-  try_teams(70, 0, 24, false);
-}
+TEST(not_kept_for_a_split) { try_teams(70, 0, 24, false); }
 
-static void not_kept_for_their_number(void **state)
-{
-  (void)state;
-  try_teams(257, 0, 2, false);
-}
+TEST(not_kept_for_their_number) { try_teams(257, 0, 2, false); }
 
-static void copied(void **state)
-{
-  (void)state;
-  try_teams(10, 300, 0, true);
-}
+TEST(copied) { try_teams(10, 300, 0, true); }
 
 /* Whichever of its calls for a team fails. */
-static void short_of_threads(void **state)
+TEST(short_of_threads)
 {
   struct trial trial;
   struct model *model;
-  (void)state;
   trial_open(&trial, 40, 0, 3);
   const struct team failing = {then_nobody, 2};
   int failures = 0;
@@ -195,12 +178,11 @@ static void short_of_threads(void **state)
 }
 
 /* The work for a few patches is done before another thread has begun. */
-static void few(void **state)
+TEST(few)
 {
   struct trial trial;
   struct model *model;
   const struct team nobody = {then_nobody, 2};
-  (void)state;
   calls_left = 0;
   trial_open(&trial, 2, 0, 1);
   assert_int_equal(model_create(&trial.scene, &nobody, &model), STATUS_OK);
@@ -220,9 +202,8 @@ static enum status measure_stack(void *context, size_t worker)
 }
 
 /* If little stack is the default (`ulimit -s`), a thread still has what hard rays take. */
-static void little_stack(void **state)
+TEST(little_stack)
 {
-  (void)state;
   pthread_attr_t attributes, before;
   size_t stack = 0;
   assert_int_equal(pthread_getattr_default_np(&before), 0);
@@ -234,13 +215,4 @@ static void little_stack(void **state)
   assert_true(stack >= 2 << 20);
   assert_int_equal(pthread_setattr_default_np(&before), 0);
   assert_int_equal(pthread_attr_destroy(&attributes), 0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(kept),        cmocka_unit_test(not_kept_for_a_split), cmocka_unit_test(not_kept_for_their_number),
-    cmocka_unit_test(copied),      cmocka_unit_test(short_of_threads),     cmocka_unit_test(few),
-    cmocka_unit_test(little_stack)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

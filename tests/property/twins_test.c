@@ -156,28 +156,25 @@ static void on_each_kind(size_t far, struct method solvers[], size_t solver_coun
   }
 }
 
-static void of_one_solver(void **state)
+TEST(of_one_solver)
 {
   struct method solver;
-  (void)state;
   method_default(solver_at(0), &solver);
   on_each_kind(0, &solver, 1);
 }
 
-static void of_several(void **state)
+TEST(of_several)
 {
   static const char *const names[] = {"bernstein", "newton", "aberth", "bernstein"};
   struct method solvers[4];
-  (void)state;
   for (int k = 0; k < 4; k++) method_default(solver_find(names[k], strlen(names[k])), &solvers[k]);
   solvers[1].split = 3, solvers[3].split = 1;
   on_each_kind(0, solvers, 4);
 }
 
-static void that_are_not_kept(void **state)
+TEST(that_are_not_kept)
 {
   struct method solver;
-  (void)state;
   method_default(solver_at(0), &solver);
   solver.split = 1; /* in both scenes */
   on_each_kind(FAR, &solver, 1);
@@ -215,14 +212,13 @@ static void copies_fill(struct copies *copies, world_net nets[], size_t count, b
   }
 }
 
-static void that_are_copies(void **state)
+TEST(that_are_copies)
 {
   static world_net nets[WORLD_MAX];
   struct random random = {SEED};
   struct copies copies[2];
   struct pair pair;
   struct method solver;
-  (void)state;
   method_default(solver_at(0), &solver);
   const size_t count = world_fill(WORLD_DOME, &random, nets);
   in_order(nets[1], 5, nets[count]);
@@ -251,9 +247,8 @@ enum { SHEETS = 7, STACKS = 200, STACK_RAYS = 8 };
 /* Sheets in any order, so close that wide arithmetic tells apart only those that are not next to each other. Every
  * answer must be consistent, although each of three sheets may be at one t with the next while the first is before
  * the last. */
-static void sheets_that_wide_arithmetic_just_tells(void **state)
+TEST(sheets_that_wide_arithmetic_just_tells)
 {
-  (void)state;
   struct random random = {SEED + 5};
   int sure = 0, wrong = 0;
   for (int stack = 0; stack < STACKS; stack++) {
@@ -310,9 +305,8 @@ static void sheet_through(double a, double b, double off, world_net out)
 
 /* Two sheets that wide arithmetic just tells apart, among more steep ones, whose t it knows less well, than could
  * all be kept. The sheet behind the other must not become the nearest. */
-static void sheets_with_many_that_are_not_told_from_them(void **state)
+TEST(sheets_with_many_that_are_not_told_from_them)
 {
-  (void)state;
   struct random random = {SEED + 6};
   int told = 0, wrong = 0;
   for (int round = 0; round < ROUNDS; round++) {
@@ -345,9 +339,8 @@ static void sheets_with_many_that_are_not_told_from_them(void **state)
 
 /* Two planes that meet on the ray are met at one t. If the ray meets them at a slant of 1 : 256 or steeper, their t
  * is known well, and which comes first does not matter; else the answer is in doubt. */
-static void what_comes_first_edge_on_is_in_doubt(void **state)
+TEST(what_comes_first_edge_on_is_in_doubt)
 {
-  (void)state;
   for (int slant = 0; slant <= 64; slant += 5) {
     world_net nets[2];
     struct world world;
@@ -367,16 +360,4 @@ static void what_comes_first_edge_on_is_in_doubt(void **state)
     assert_int_equal(list.certainty, want);
     world_close(&world);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(of_one_solver),
-                                     cmocka_unit_test(of_several),
-                                     cmocka_unit_test(that_are_not_kept),
-                                     cmocka_unit_test(sheets_that_wide_arithmetic_just_tells),
-                                     cmocka_unit_test(sheets_with_many_that_are_not_told_from_them),
-                                     cmocka_unit_test(what_comes_first_edge_on_is_in_doubt),
-                                     cmocka_unit_test(that_are_copies)};
-  return cmocka_run_group_tests_name("twins", tests, NULL, NULL);
 }

@@ -161,9 +161,8 @@ static void within(struct intersect_counts took, size_t work)
   assert_in_range(took.work, 0, work);
 }
 
-static void a_ray_takes_no_more_than_its_budget(void **state)
+TEST(a_ray_takes_no_more_than_its_budget)
 {
-  (void)state;
   static world_net nets[MOST_PATCHES];
   for (size_t s = 0; s < sizeof made_up / sizeof *made_up; s++) {
     const struct made_up *scene = &made_up[s];
@@ -212,9 +211,8 @@ static void tunnel(world_net nets[])
 
 /* A ray whose work ends on its way through the tunnel counts as hidden, alone or together with a ray that reaches
  * the wall first and makes the others do so too. */
-static void what_is_not_looked_at_hides(void **state)
+TEST(what_is_not_looked_at_hides)
 {
-  (void)state;
   static world_net nets[ARCHES + 1];
   struct world world;
   struct method whole;
@@ -248,9 +246,8 @@ static void passed_sheet(size_t number, world_net net)
   }
 }
 
-static void what_is_passed_by_hides_nothing(void **state)
+TEST(what_is_passed_by_hides_nothing)
 {
-  (void)state;
   static world_net nets[ARCHES + 1];
   struct world world;
   const struct ray ray = {{0.531, 0.529, -5}, {0, 0, 1}, 0, INFINITY};
@@ -320,9 +317,8 @@ static int certain_of(const struct world *world, size_t hard, const struct ray r
   return certain;
 }
 
-static void boxes_and_leaves_made_are_counted(void **state)
+TEST(boxes_and_leaves_made_are_counted)
 {
-  (void)state;
   enum { STRAWS, POINT, KINDS, HARD = 8 };
   static const char *const names[KINDS] = {"straws", "through the point"};
   world_net *nets = calloc(CROWD, sizeof *nets);
@@ -353,12 +349,4 @@ static void boxes_and_leaves_made_are_counted(void **state)
     }
   }
   free(nets);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_ray_takes_no_more_than_its_budget), cmocka_unit_test(what_is_not_looked_at_hides),
-    cmocka_unit_test(what_is_passed_by_hides_nothing), cmocka_unit_test(boxes_and_leaves_made_are_counted)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

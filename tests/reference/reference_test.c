@@ -53,9 +53,8 @@ static void trough_net(double P[4][4][3])
 }
 
 /* Squares of the largest and smallest doubles are no doubles. */
-static void test_lengths_of_all_sizes(void **state)
+TEST(test_lengths_of_all_sizes)
 {
-  (void)state;
   for (int k = -1070; k < 1020; k++) {
     const double size = ldexp(1, k), a[3] = {0, -3 * size, 4 * size}, none[3] = {0};
     const quad square = (quad)a[1] * a[1] + (quad)a[2] * a[2];
@@ -68,9 +67,8 @@ static void test_lengths_of_all_sizes(void **state)
   assert_true(quad_sqrt(0) == 0 && quad_sqrt(-1) == 0 && quad_sqrt((quad)INFINITY) == (quad)INFINITY);
 }
 
-static void test_flat(void **state)
+TEST(test_flat)
 {
-  (void)state;
   double P[1][4][4][3];
   flat_net(0, 0.5, P[0]);
   const double origin[3] = {1.25, 0.75, 7.25}, direction[3] = {0, 0.25, -3};
@@ -91,9 +89,8 @@ static void test_flat(void **state)
 }
 
 /* Rays across the trough at height h: two hits at s = -+sqrt(h/3), a double one, or none. */
-static void test_tangent(void **state)
+TEST(test_tangent)
 {
-  (void)state;
   double P[1][4][4][3];
   trough_net(P[0]);
   const double direction[3] = {2, 0, 0};
@@ -118,9 +115,8 @@ static void test_tangent(void **state)
   assert_int_equal(ask(P, 1, at, direction).verdict, REFERENCE_GRAZING);
 }
 
-static void test_border(void **state)
+TEST(test_border)
 {
-  (void)state;
   double P[2][4][4][3];
   flat_net(0, 0, P[0]);
   flat_net(3, 0, P[1]);
@@ -141,9 +137,8 @@ static void test_border(void **state)
 
 /* A ray in the plane of a patch, one along a ruling, and patches collapsed to a line and to a point: work is bounded,
  * and nothing is claimed. */
-static void test_degenerate(void **state)
+TEST(test_degenerate)
 {
-  (void)state;
   double P[1][4][4][3];
   flat_net(0, 0.5, P[0]);
   const double in_plane[3] = {-2, 1.1, 0.5}, along[3] = {1, 0.125, 0};
@@ -227,9 +222,8 @@ static double newton_hit(const double P[4][4][3], const double o[3], const doubl
 
 /* From no start of a grid does Newton's method find a hit that the reference lacks, and the reference's hits are common
  * points. */
-static void test_brute_force(void **state)
+TEST(test_brute_force)
 {
-  (void)state;
   enum { STARTS = 7 };
   size_t rays = effort_count(50000, 300), hits = 0, misses = 0, grazing = 0;
   struct random random = {.state = 20240611};
@@ -266,9 +260,8 @@ static void test_brute_force(void **state)
 }
 
 /* Moving every input coordinate by one rounding moves the hit by no more than the floor, to first order. */
-static void test_floor(void **state)
+TEST(test_floor)
 {
-  (void)state;
   size_t rays = effort_count(20000, 300), hits = 0;
   double share = 0;
   struct random random = {.state = 77};
@@ -294,18 +287,4 @@ static void test_floor(void **state)
   }
   printf("floor: %zu hits, worst move %.3f of the bound\n", hits, share);
   assert_true(hits > rays / 10 && share > 0.05); /* the bound is not vacuous */
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_flat),
-    cmocka_unit_test(test_tangent),
-    cmocka_unit_test(test_border),
-    cmocka_unit_test(test_degenerate),
-    cmocka_unit_test(test_brute_force),
-    cmocka_unit_test(test_floor),
-    cmocka_unit_test(test_lengths_of_all_sizes),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,6 +142,8 @@ static int leave_folder(void **state)
   return result;
 }
 
+#define IN_FOLDER(test) TEST_WITH(test, enter_folder, leave_folder)
+
 static int count_entries(void)
 {
   int count = 0;
@@ -166,9 +168,8 @@ static enum status write_text(const char *path, const char *text, int *out_errno
   return atomic_files_write(&(struct atomic_file){path, text, strlen(text)}, 1, NULL, &failed, out_errno);
 }
 
-static void new_file_has_the_masks_permissions(void **state)
+IN_FOLDER(new_file_has_the_masks_permissions)
 {
-  (void)state;
   int reason = -1;
   folders_flushed = 0;
   assert_int_equal(atomic_file_probe("a", &reason), STATUS_OK);
@@ -181,9 +182,8 @@ static void new_file_has_the_masks_permissions(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
-static void old_file_is_replaced_and_keeps_its_permissions(void **state)
+IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions)
 {
-  (void)state;
   int reason;
   put_text("a", "old and longer");
   assert_int_equal(chmod("a", 04750), 0);
@@ -195,9 +195,8 @@ static void old_file_is_replaced_and_keeps_its_permissions(void **state)
 }
 
 /* Although its folder could be written. */
-static void what_may_not_be_written_is_not_replaced(void **state)
+IN_FOLDER(what_may_not_be_written_is_not_replaced)
 {
-  (void)state;
   int reason = 0;
   put_text("a", "old");
   access_reason = EACCES; /* root may write all files */
@@ -209,10 +208,9 @@ static void what_may_not_be_written_is_not_replaced(void **state)
 
 /* A file that is a mount point, append-only, or another user's in a sticky folder is refused before the work; but not
  * in one's own folder, nor for root. */
-static void what_cannot_be_replaced_is_known_before(void **state)
+IN_FOLDER(what_cannot_be_replaced_is_known_before)
 {
 #if defined(STATX_ATTR_MOUNT_ROOT)
-  (void)state;
   static const struct {
     struct told told;
     int reason;
@@ -233,14 +231,12 @@ static void what_cannot_be_replaced_is_known_before(void **state)
     assert_int_equal(status, reason == 0 ? STATUS_OK : STATUS_FILE);
   }
 #else
-  (void)state;
   skip();
 #endif
 }
 
-static void names_that_others_made_are_passed_over(void **state)
+IN_FOLDER(names_that_others_made_are_passed_over)
 {
-  (void)state;
   int reason;
   if (no_unnamed == 0) return; /* no name is created */
   guessed = 3;
@@ -252,9 +248,8 @@ static void names_that_others_made_are_passed_over(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
-static void symbolic_link_is_followed(void **state)
+IN_FOLDER(symbolic_link_is_followed)
 {
-  (void)state;
   int reason;
   put_text("a", "old");
   assert_int_equal(symlink("a", "link"), 0);
@@ -265,9 +260,8 @@ static void symbolic_link_is_followed(void **state)
   assert_true(S_ISLNK(info.st_mode));
 }
 
-static void impossible_names_have_their_reasons(void **state)
+IN_FOLDER(impossible_names_have_their_reasons)
 {
-  (void)state;
   char long_name[300];
   memset(long_name, 'x', sizeof long_name - 1);
   long_name[sizeof long_name - 1] = '\0';
@@ -288,9 +282,8 @@ static void impossible_names_have_their_reasons(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
-static void device_is_written_to_not_replaced(void **state)
+IN_FOLDER(device_is_written_to_not_replaced)
 {
-  (void)state;
   int reason = 0;
   if (access("/dev/full", W_OK) != 0) skip();
   assert_int_equal(symlink("/dev/full", "full"), 0);
@@ -307,9 +300,8 @@ static void device_is_written_to_not_replaced(void **state)
   assert_true(S_ISCHR(info.st_mode));
 }
 
-static void stopped_write_leaves_the_old_file(void **state)
+IN_FOLDER(stopped_write_leaves_the_old_file)
 {
-  (void)state;
   int reason = 0;
   atomic_int stop = 1;
   size_t failed;
@@ -321,9 +313,8 @@ static void stopped_write_leaves_the_old_file(void **state)
 }
 
 /* Nor does it remove a file that is to go. */
-static void stopped_writing_takes_nothing_away(void **state)
+IN_FOLDER(stopped_writing_takes_nothing_away)
 {
-  (void)state;
   int reason = 0;
   atomic_int stop = 1;
   size_t failed;
@@ -334,9 +325,8 @@ static void stopped_writing_takes_nothing_away(void **state)
 }
 
 /* A file system that cannot flush is no failure; a disk that fails to is. */
-static void what_is_not_on_the_disk_is_not_written(void **state)
+IN_FOLDER(what_is_not_on_the_disk_is_not_written)
 {
-  (void)state;
   int reason = 0;
   size_t failed;
   const struct atomic_file file = {"a", "new", 3};
@@ -356,9 +346,8 @@ static void what_is_not_on_the_disk_is_not_written(void **state)
 static atomic_int rung;
 static void ring(int signal) { atomic_store(&rung, signal); }
 
-static void a_signal_ends_the_wait_for_a_reader(void **state)
+IN_FOLDER(a_signal_ends_the_wait_for_a_reader)
 {
-  (void)state;
   int reason = 0;
   size_t failed;
   const struct atomic_file file = {"pipe", "text", 4};
@@ -376,9 +365,8 @@ static void a_signal_ends_the_wait_for_a_reader(void **state)
 }
 
 /* Nobody can open a file while it is written; or, if it needs a name, only those who could open the old one. */
-static void unfinished_files_are_private(void **state)
+IN_FOLDER(unfinished_files_are_private)
 {
-  (void)state;
   int reason;
   put_text("a", "old");
   assert_int_equal(chmod("a", 0600), 0);
@@ -390,9 +378,8 @@ static void unfinished_files_are_private(void **state)
 
 /* Of several files all appear, or none, and the old ones stay. The last name is a folder, found only when everything is
  * written. */
-static void several_files_appear_together(void **state)
+IN_FOLDER(several_files_appear_together)
 {
-  (void)state;
   struct atomic_file files[] = {{"first", "new", 3}, {"second", "new", 3}, {"gone", NULL, 0}, {"last", "new", 3}};
   size_t failed;
   int reason;
@@ -417,9 +404,8 @@ static void several_files_appear_together(void **state)
 
 /* A file to be removed that another process has removed meanwhile is no failure. Here the file before it in the list is
  * the same one. */
-static void a_file_may_go_twice(void **state)
+IN_FOLDER(a_file_may_go_twice)
 {
-  (void)state;
   const struct atomic_file files[] = {{"first", "new", 3}, {"gone", NULL, 0}, {"gone", NULL, 0}};
   size_t failed;
   int reason;
@@ -431,9 +417,8 @@ static void a_file_may_go_twice(void **state)
 }
 
 /* The same, if the last file cannot get its name. */
-static void a_failing_name_undoes_those_before(void **state)
+IN_FOLDER(a_failing_name_undoes_those_before)
 {
-  (void)state;
   const struct atomic_file files[] = {
     {"kept", "new", 3}, {"made", "new", 3}, {"removed", NULL, 0}, {"there", "new", 3}};
   size_t failed;
@@ -451,9 +436,8 @@ static void a_failing_name_undoes_those_before(void **state)
 }
 
 /* Of a link only the name is removed or replaced: what it points to may be somebody else's. */
-static void a_link_goes_without_its_file(void **state)
+IN_FOLDER(a_link_goes_without_its_file)
 {
-  (void)state;
   struct atomic_file files[] = {{"link", NULL, 0}, {"last", "new", 3}};
   size_t failed;
   int reason;
@@ -472,34 +456,13 @@ static void a_link_goes_without_its_file(void **state)
   expect_file("far", "old");
 }
 
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
-
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    IN_FOLDER(new_file_has_the_masks_permissions),
-    IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions),
-    IN_FOLDER(symbolic_link_is_followed),
-    IN_FOLDER(impossible_names_have_their_reasons),
-    IN_FOLDER(device_is_written_to_not_replaced),
-    IN_FOLDER(stopped_write_leaves_the_old_file),
-    IN_FOLDER(stopped_writing_takes_nothing_away),
-    IN_FOLDER(what_is_not_on_the_disk_is_not_written),
-    IN_FOLDER(a_signal_ends_the_wait_for_a_reader),
-    IN_FOLDER(unfinished_files_are_private),
-    IN_FOLDER(several_files_appear_together),
-    IN_FOLDER(a_file_may_go_twice),
-    IN_FOLDER(a_failing_name_undoes_those_before),
-    IN_FOLDER(a_link_goes_without_its_file),
-    IN_FOLDER(what_may_not_be_written_is_not_replaced),
-    IN_FOLDER(what_cannot_be_replaced_is_known_before),
-    IN_FOLDER(names_that_others_made_are_passed_over),
-  };
-  int failed = cmocka_run_group_tests_name("files without a name", tests, NULL, NULL);
+  int failed = test_run();
   const int reasons[] = {EOPNOTSUPP, EISDIR, EINVAL}; /* the last two from systems that do not know such files */
   for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++) {
     no_unnamed = reasons[k];
-    failed += cmocka_run_group_tests_name("files with names only", tests, NULL, NULL);
+    failed += test_run();
   }
   return failed;
 }

@@ -84,9 +84,8 @@ static struct bvh_box box_at(struct random *random, double spread, double size, 
   return box;
 }
 
-static void none_one_two(void **state)
+TEST(none_one_two)
 {
-  (void)state;
   struct bvh bvh = {(struct bvh_node *)&bvh, 7};
   assert_int_equal(bvh_build(NULL, 0, NULL, &bvh), STATUS_OK);
   assert_true(bvh.node_count == 0 && bvh.nodes == NULL);
@@ -105,9 +104,8 @@ static void none_one_two(void **state)
   check(boxes, 2);
 }
 
-static void friendly_boxes(void **state)
+TEST(friendly_boxes)
 {
-  (void)state;
   static struct bvh_box boxes[MANY];
   struct random random = {SEED + 1};
   const double zero[3] = {0, 0, 0};
@@ -127,9 +125,8 @@ static double area(const struct bvh_node *node, int side)
 
 /* The expected number of boxes that a ray tries is the surface of all boxes of the tree, in units of the whole one's.
  * It depends on where ranges are divided: 15.9, or 18.9 if the smallest range is divided first. */
-static void planes_are_the_cheapest(void **state)
+TEST(planes_are_the_cheapest)
 {
-  (void)state;
   static struct bvh_box boxes[MANY];
   struct random random = {SEED + 4};
   const double zero[3] = {0, 0, 0};
@@ -146,9 +143,8 @@ static void planes_are_the_cheapest(void **state)
 }
 
 /* The stored boxes are in single precision: at an offset of 1e6 a box is smaller than one rounding. */
-static void rounding_goes_outwards(void **state)
+TEST(rounding_goes_outwards)
 {
-  (void)state;
   static struct bvh_box boxes[MANY];
   struct random random = {SEED + 2};
   static const double offsets[][3] = {
@@ -161,9 +157,8 @@ static void rounding_goes_outwards(void **state)
   check(boxes, MANY);
 }
 
-static void all_equal(void **state)
+TEST(all_equal)
 {
-  (void)state;
   static struct bvh_box boxes[MANY];
   for (size_t k = 0; k < MANY; k++) boxes[k] = (struct bvh_box){{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}};
   assert_true(check(boxes, MANY) <= 13);
@@ -179,9 +174,8 @@ static void all_equal(void **state)
 
 /* Each box is twice as far away as the one before. A plane splits one off, so the depth grows by one a box until
  * halving takes over. */
-static void exponentially_spaced(void **state)
+TEST(exponentially_spaced)
 {
-  (void)state;
   static struct bvh_box boxes[MANY];
   static const double bases[] = {2, 1.25, 16, 0.5};
   for (size_t b = 0; b < sizeof bases / sizeof *bases; b++) {
@@ -203,9 +197,8 @@ static void exponentially_spaced(void **state)
   print_message("clusters: depth %d\n", check(boxes, MANY));
 }
 
-static void flat_and_long_boxes(void **state)
+TEST(flat_and_long_boxes)
 {
-  (void)state;
   static struct bvh_box boxes[MANY];
   struct random random = {SEED + 3};
   for (size_t k = 0; k < MANY; k++) {
@@ -230,14 +223,5 @@ static void flat_and_long_boxes(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(none_one_two),
-    cmocka_unit_test(friendly_boxes),
-    cmocka_unit_test(planes_are_the_cheapest),
-    cmocka_unit_test(rounding_goes_outwards),
-    cmocka_unit_test(all_equal),
-    cmocka_unit_test(exponentially_spaced),
-    cmocka_unit_test(flat_and_long_boxes),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

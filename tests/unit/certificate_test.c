@@ -79,9 +79,8 @@ static void try_all(const struct turning *f)
   }
 }
 
-static void what_passes_has_one_root(void **state)
+TEST(what_passes_has_one_root)
 {
-  (void)state;
   int tried = 0;
   for (int bend = -30; bend <= 60; bend++) {
     for (int size = -70; size <= 0; size++) {
@@ -178,9 +177,8 @@ static double try_surfaces(const struct turning *longer)
   return most;
 }
 
-static void what_passes_of_two_rows_is_near(void **state)
+TEST(what_passes_of_two_rows_is_near)
 {
-  (void)state;
   double most = 0;
   for (int bend = -20; bend <= 40; bend += 5) {
     for (int size = -58; size <= -10; size += 4) {
@@ -197,9 +195,8 @@ static void what_passes_of_two_rows_is_near(void **state)
 
 /* From a root, where the slope is 1 or as small as rounding allows, f = w - turn w^2 / 2 returns to 0 at w = 2 / turn.
  * That is beyond a leaf of length 1 if turn is below 2. */
-static void what_passes_is_alone(void **state)
+TEST(what_passes_is_alone)
 {
-  (void)state;
   int tried = 0;
   for (int size = -70; size <= 0; size++) {
     struct turning f = {.size = ldexp(1, size)};
@@ -209,12 +206,4 @@ static void what_passes_is_alone(void **state)
     tried++;
   }
   assert_true(tried > 50);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_passes_has_one_root),
-                                     cmocka_unit_test(what_passes_of_two_rows_is_near),
-                                     cmocka_unit_test(what_passes_is_alone)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,9 +5,8 @@
 
 #include "cmocka_test.h"
 
-static void every_channel_is_found(void **state)
+TEST(every_channel_is_found)
 {
-  (void)state;
   struct channel_list list;
   const char *bad;
   size_t length, width = 0;
@@ -21,9 +20,8 @@ static void every_channel_is_found(void **state)
   assert_int_equal(list.width, width);
 }
 
-static void wrong_lists_are_refused(void **state)
+TEST(wrong_lists_are_refused)
 {
-  (void)state;
   static const struct {
     const char *text, *bad;
   } cases[] = {{"", ""},         {"rgb,", ""},   {",rgb", ""},     {"rgb,z,u", "z"},
@@ -41,9 +39,8 @@ static void wrong_lists_are_refused(void **state)
 }
 
 /* The solver's work is measured if any channel shows it. */
-static void one_channel_is_enough(void **state)
+TEST(one_channel_is_enough)
 {
-  (void)state;
   static const struct {
     const char *text;
     bool measures, rgb;
@@ -58,14 +55,4 @@ static void one_channel_is_enough(void **state)
     assert_int_equal(channel_list_measures(&list), cases[k].measures);
     assert_int_equal(channel_list_is_rgb(&list), cases[k].rgb);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_channel_is_found),
-    cmocka_unit_test(wrong_lists_are_refused),
-    cmocka_unit_test(one_channel_is_enough),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,9 +54,8 @@ static json_t *figure_of(struct chart_point *points, size_t count)
 }
 
 /* Each number of a point, all different, stands under its name; a solver's choices are words; a peer has none. */
-static void numbers_are_in_their_place(void **state)
+TEST(numbers_are_in_their_place)
 {
-  (void)state;
   struct chart_point points[] = {{.family = FAMILY_ABERTH,
                                   .name = "aberth",
                                   .ours = true,
@@ -98,9 +97,8 @@ static double number(const json_t *from, const char *key) { return json_number_v
 
 /* The points of a family that are all right come first, with its title. The others are hollow, and have the title only
  * if there are no such points. */
-static void each_family_is_titled_once(void **state)
+TEST(each_family_is_titled_once)
 {
-  (void)state;
   struct chart_point points[] = {point(FAMILY_DEFAULT, 100, 1e-15, 0, ""), point(FAMILY_DEFAULT, 90, 1, 1, ""),
                                  point(FAMILY_NEWTON, 120, 1, 3, ""),      point(FAMILY_LAGUERRE, NAN, 1e-15, 0, ""),
                                  point(FAMILY_DEFAULT, 80, 1e-9, 0, ""),   point(FAMILY_EMBREE, 50, 1e-9, 0, "")};
@@ -122,9 +120,8 @@ static void each_family_is_titled_once(void **state)
 }
 
 /* From the most exact point to the fastest; pale if one of the two is not all right. */
-static void steps_join_the_front(void **state)
+TEST(steps_join_the_front)
 {
-  (void)state;
   struct chart_point points[] = {point(FAMILY_NEWTON, 10, 0.1, 1, ""), point(FAMILY_DEFAULT, 100, 0, 0, ""),
                                  point(FAMILY_ABERTH, 70, 1e-12, 0, ""), point(FAMILY_EMBREE, 50, 1e-5, 0, "")};
   points[0].front = points[1].front = points[3].front = true;
@@ -139,9 +136,8 @@ static void steps_join_the_front(void **state)
 }
 
 /* A label that would overlap an earlier one moves to the right; if that place is taken, too, farther. */
-static void labels_make_way(void **state)
+TEST(labels_make_way)
 {
-  (void)state;
   struct chart_point points[] = {point(FAMILY_EMBREE, 100, 1e-5, 0, "16"),  point(FAMILY_EMBREE, 101, 1e-5, 0, ""),
                                  point(FAMILY_EMBREE, 102, 1e-5, 0, "32"),  point(FAMILY_EMBREE, 104, 1e-5, 0, "64"),
                                  point(FAMILY_EMBREE, 150, 1e-5, 0, "128"), point(FAMILY_EMBREE, 100, 1e-4, 0, "256")};
@@ -160,9 +156,8 @@ static void *json_block(size_t size) { return left-- == 0 ? NULL : malloc(size);
 
 /* A page that lacks anything because memory is short fails: the block that is missing is any of the values' or of the
  * figure's, or of the copy that the figure is drawn from here. */
-static void pages_are_whole(void **state)
+TEST(pages_are_whole)
 {
-  (void)state;
   struct chart_point points[] = {point(FAMILY_ABERTH, 1, 0.5, 0, "1"), point(FAMILY_EMBREE, 2, 0.25, 0, "8")};
   points[0].front = points[1].front = true;
   bool whole = false;
@@ -178,12 +173,4 @@ static void pages_are_whole(void **state)
     json_decref(values);
   }
   json_set_alloc_funcs(get, release);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(numbers_are_in_their_place), cmocka_unit_test(each_family_is_titled_once),
-    cmocka_unit_test(steps_join_the_front), cmocka_unit_test(labels_make_way), cmocka_unit_test(pages_are_whole)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,9 +15,8 @@ static struct chart_point point(double ns, double error)
   return p;
 }
 
-static void test_front(void **state)
+TEST(test_front)
 {
-  (void)state;
   struct chart_point points[] = {
     point(100, 1e-15), /* front: the most exact */
     point(100, 1e-12), /* as fast as the first, less exact */
@@ -36,9 +35,8 @@ static void test_front(void **state)
 }
 
 /* Of points that differ only by noise the first is on the front. A greater difference counts. */
-static void test_front_noise(void **state)
+TEST(test_front_noise)
 {
-  (void)state;
   struct chart_point points[] = {
     point(100, 1e-15),                  /* as fast as the next within the noise, and as exact */
     point(98, 1e-15), point(90, 1e-15), /* faster than noise explains */
@@ -65,9 +63,8 @@ static void test_front_noise(void **state)
 }
 
 /* Times are in units of the yardstick: those measured while the machine was half as fast are halved. */
-static void test_level(void **state)
+TEST(test_level)
 {
-  (void)state;
   struct chart_point points[] = {point(300, 1e-15), point(NAN, 1e-15), point(200, 1e-15)};
   points[0].time[RAYS_CAMERA].ratio = 1.5;                                     /* the yardstick took 200 */
   points[1].time[RAYS_CAMERA].ratio = points[2].time[RAYS_CAMERA].ratio = NAN; /* measured without the yardstick */
@@ -86,9 +83,8 @@ static void count_up(void *context, enum ray_kind kind, struct answer *answers)
   calls[kind]++;
 }
 
-static void test_measure(void **state)
+TEST(test_measure)
 {
-  (void)state;
   size_t calls[2][RAY_KINDS] = {{0}};
   const struct runner runners[2] = {{count_up, calls[0]}, {count_up, calls[1]}};
   const size_t counts[RAY_KINDS] = {10, 0};
@@ -110,9 +106,8 @@ static void test_measure(void **state)
 }
 
 /* The truth, a third of the way, is known beyond double precision. */
-static void test_truths(void **state)
+TEST(test_truths)
 {
-  (void)state;
   struct scene_patch patch = {0};
   for (int n = 0; n < 16; n++)
     patch.P[n / 4][n % 4][0] = n % 4 - 1, patch.P[n / 4][n % 4][1] = n / 4 - 1, patch.P[n / 4][n % 4][2] = 1;
@@ -127,9 +122,8 @@ static void test_truths(void **state)
   assert_true(truths[1].kind == TRUTH_MISS && isinf(truths[1].t));
 }
 
-static void test_judge(void **state)
+TEST(test_judge)
 {
-  (void)state;
   const struct truth truths[] = {
     {TRUTH_HIT, 2, 0, 4, false},
     {TRUTH_HIT, 2, 0x1p-52, 4, false},
@@ -173,9 +167,8 @@ static void test_judge(void **state)
 
 /* A hit that is lost, invented or wrong counts as an error of 1, no more. A peer that knows no patches never has
  * another patch. */
-static void test_judge_errors(void **state)
+TEST(test_judge_errors)
 {
-  (void)state;
   const struct truth truths[] = {{TRUTH_HIT, 2, 0, 4, false}, {TRUTH_MISS, INFINITY, 0, HIT_NONE, false}};
   const struct answer right[] = {{2, ANSWER_PATCH_UNKNOWN}, {INFINITY, HIT_NONE}}, invented[] = {{2, 4}, {1, 0}},
                       wrong = {8, 5}, lost = {INFINITY, HIT_NONE};
@@ -192,9 +185,8 @@ static void test_judge_errors(void **state)
   assert_true(j.lost == 1 && isnan(j.median) && isnan(j.p99) && isnan(j.max) && j.p99_of_all == 1);
 }
 
-static void test_judge_occluded(void **state)
+TEST(test_judge_occluded)
 {
-  (void)state;
   const struct ray rays[4] = {{.t_max = 1}, {.t_max = 1}, {.t_max = 1}, {.t_max = 1}};
   const struct truth truths[4] = {{TRUTH_HIT, 0.5, 0, 0, false},
                                   {TRUTH_HIT, 1.5, 0, 0, false},
@@ -210,9 +202,8 @@ static void test_judge_occluded(void **state)
 }
 
 /* All rays are the pixels' own, each once, if all are wanted. Fewer are whole strips, spread over the picture. */
-static void test_rays(void **state)
+TEST(test_rays)
 {
-  (void)state;
   const struct scene scene = {.camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
   enum { WIDTH = 70, HEIGHT = 45 }; /* multiples neither of a tile's side nor of a packet's */
   struct arena *arena = arena_create();
@@ -245,9 +236,8 @@ static void test_rays(void **state)
 
 /* Shadow rays go packet by packet, one light after the other, none to a shadowless one. A run of them begins with the
  * first packet of camera rays that sends some. */
-static void test_shadow_rays(void **state)
+TEST(test_shadow_rays)
 {
-  (void)state;
   enum { LIGHTS = 3, PACKETS = 5, HITS = 3 };
   struct scene_light lights[] = {{.position = {0, 0, 5}},
                                  {.position = {0, 0, 9}, .shadowless = true},
@@ -276,9 +266,8 @@ static void test_shadow_rays(void **state)
 /* The first is the default, and all are different. Each power of the tolerance comes with polish and without; for the
  * three solvers of all roots, with both bases, both starts and the paper's forms; and with whole patches, from each
  * start. */
-static void test_sweep(void **state)
+TEST(test_sweep)
 {
-  (void)state;
   for (int quick = 0; quick < 2; quick++) {
     const size_t count = point_sweep(quick, NULL), powers = quick ? 3 : 15;
     assert_int_equal(count, 1 + (2 * powers + 1) + 3 * ((8 + 2) * powers + 2));
@@ -299,15 +288,4 @@ static void test_sweep(void **state)
     assert_int_equal(whole, 1 + 3 * (2 + 2 * powers)); /* with the paper's form */
     free(sweep);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_front),        cmocka_unit_test(test_front_noise),    cmocka_unit_test(test_level),
-    cmocka_unit_test(test_measure),      cmocka_unit_test(test_truths),         cmocka_unit_test(test_judge),
-    cmocka_unit_test(test_judge_errors), cmocka_unit_test(test_judge_occluded), cmocka_unit_test(test_rays),
-    cmocka_unit_test(test_shadow_rays),  cmocka_unit_test(test_sweep),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

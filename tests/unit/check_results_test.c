@@ -75,9 +75,8 @@ static void free_check(struct check *check)
   image_destroy(&check->ours.picture);
 }
 
-static void everything_is_in_its_place(void **state)
+TEST(everything_is_in_its_place)
 {
-  (void)state;
   static struct check_pixel pixels[WIDTH * HEIGHT];
   const struct check_request request = {.path = "scene",
                                         .folder = "out",
@@ -162,9 +161,8 @@ static void everything_is_in_its_place(void **state)
 }
 
 /* There is no figure without distances, or if none of POV-Ray's finer pictures has a differing pixel. */
-static void what_is_not_there_is_left_out(void **state)
+TEST(what_is_not_there_is_left_out)
 {
-  (void)state;
   static struct check_pixel pixels[WIDTH * HEIGHT];
   const struct check_request request = {
     .path = "scene", .folder = "out", .command_line = "", .own_text = true, .width = WIDTH, .height = HEIGHT};
@@ -183,11 +181,4 @@ static void what_is_not_there_is_left_out(void **state)
   text_buffer_free(&table);
   json_decref(numbers);
   free_check(&check);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(everything_is_in_its_place),
-                                     cmocka_unit_test(what_is_not_there_is_left_out)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

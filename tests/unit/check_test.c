@@ -36,9 +36,8 @@ static enum check_edge between(struct check_sight a, struct check_sight b)
   return found;
 }
 
-static void one_surface_has_no_edge(void **state)
+TEST(one_surface_has_no_edge)
 {
-  (void)state;
   assert_int_equal(between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_NONE);
   /* seen nearly edge-on: the distance changes by five times the step */
   assert_int_equal(between(sight(0, 0, 5, 1, 0, 0.2), sight(0.01, 0, 4.95, 1, 0, 0.2)), CHECK_EDGE_NONE);
@@ -46,9 +45,8 @@ static void one_surface_has_no_edge(void **state)
   assert_int_equal(between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 5.0005, 0.1, 0, -1)), CHECK_EDGE_NONE);
 }
 
-static void what_stands_before_another_is_a_silhouette(void **state)
+TEST(what_stands_before_another_is_a_silhouette)
 {
-  (void)state;
   struct check_sight miss = sight(0, 0, 5, 0, 0, -1);
   miss.hit.patch = HIT_NONE, miss.distance = INFINITY;
   assert_int_equal(between(miss, miss), CHECK_EDGE_NONE);
@@ -70,9 +68,8 @@ static enum check_edge ridge(double degrees)
   return between(sight(0, 0, 5, 0, 0, -1), sight(0.01, 0, 5 + 0.01 * tan(fall), tan(2 * fall), 0, -1));
 }
 
-static void shadows_and_creases_are_told_apart(void **state)
+TEST(shadows_and_creases_are_told_apart)
 {
-  (void)state;
   struct check_sight lit = sight(0, 0, 5, 0, 0, -1), dark = sight(0.01, 0, 5, 0, 0, -1);
   dark.lights = 0;
   assert_int_equal(between(lit, dark), CHECK_EDGE_SHADOW);
@@ -92,9 +89,8 @@ static void shadows_and_creases_are_told_apart(void **state)
 }
 
 /* Silhouettes surround a miss, its corners included, and outrank another edge there. */
-static void a_miss_has_edges_all_round(void **state)
+TEST(a_miss_has_edges_all_round)
 {
-  (void)state;
   enum { WIDTH = 5, HEIGHT = 3 };
   for (size_t miss = 0; miss < WIDTH * HEIGHT; miss++) {
     struct check_sight sights[WIDTH * HEIGHT];
@@ -117,9 +113,8 @@ static void a_miss_has_edges_all_round(void **state)
 }
 
 /* Of 1,000 pixels. Each limit is exceeded by the least possible amount, and not by its own value. */
-static void limits_are_what_they_are(void **state)
+TEST(limits_are_what_they_are)
 {
-  (void)state;
   const struct check_request request = {.fail = {.each = 0.5, .percent = 1}, .fail_psnr = 40, .fail_mask = 0.5};
   struct check check = {.request = &request, .row_count = 1};
   struct check_row *row = &check.row[0];
@@ -135,13 +130,4 @@ static void limits_are_what_they_are(void **state)
   row->over_limit = 10, row->result.psnr = nextafter(40, 0);
   assert_false(check_within_limits(&check, said, sizeof said));
   assert_non_null(strstr(said, "PSNR"));
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(one_surface_has_no_edge), cmocka_unit_test(what_stands_before_another_is_a_silhouette),
-    cmocka_unit_test(shadows_and_creases_are_told_apart), cmocka_unit_test(a_miss_has_edges_all_round),
-    cmocka_unit_test(limits_are_what_they_are)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

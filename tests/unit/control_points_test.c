@@ -53,9 +53,8 @@ static void assert_same_bits(double P[4][4][3], double u, double v)
   assert_memory_equal(one, other, sizeof one);
 }
 
-static void test_tangents(void **state)
+TEST(test_tangents)
 {
-  (void)state;
   struct random random = {SEED};
   for (int n = 0; n < PATCHES; n++) {
     double P[4][4][3];
@@ -82,9 +81,8 @@ static void assert_range(points_range_function *range, double P[4][4][3])
   }
 }
 
-static void test_range(void **state)
+TEST(test_range)
 {
-  (void)state;
   struct random random = {SEED + 1};
   for (int n = 0; n < PATCHES; n++) {
     double P[4][4][3];
@@ -112,9 +110,8 @@ static bool assert_frame(points_frame_function *frame, double P[4][4][3], const 
 }
 
 /* Whole numbers leave no rest. One number that is not whole leaves one, wherever it stands. */
-static void test_frame(void **state)
+TEST(test_frame)
 {
-  (void)state;
   struct random random = {SEED + 2};
   for (int n = 0; n < PATCHES; n++) {
     double P[4][4][3], center[3];
@@ -129,11 +126,4 @@ static void test_frame(void **state)
     center[at % 3] = 1, P[at / 12][at / 3 % 4][at % 3] = 0x1p-60;
     assert_true(assert_frame(points_frame, P, center, unit) && assert_frame(points_frame_baseline, P, center, unit));
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_tangents), cmocka_unit_test(test_range),
-                                     cmocka_unit_test(test_frame)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

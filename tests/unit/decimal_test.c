@@ -36,9 +36,8 @@ static void expect_digits(double value, int count, uint64_t digits, int exponent
   assert_int_equal(atoi(strchr(text, 'e') + 1), exponent + count - 1);
 }
 
-static void digits_are_printfs(void **state)
+TEST(digits_are_printfs)
 {
-  (void)state;
   struct random random = {2021};
   uint64_t digits;
   int exponent;
@@ -50,9 +49,8 @@ static void digits_are_printfs(void **state)
   }
 }
 
-static void ties_and_powers(void **state)
+TEST(ties_and_powers)
 {
-  (void)state;
   static const double values[] = {0.5,
                                   1,
                                   1.5,
@@ -100,9 +98,8 @@ static void expect_double(uint64_t digits, int exponent)
   assert_true(value == strtod(text, NULL));
 }
 
-static void doubles_are_strtods(void **state)
+TEST(doubles_are_strtods)
 {
-  (void)state;
   struct random random = {1982};
   for (int k = 0; k < RANDOM_NUMBERS; k++) {
     const uint64_t digits = random_bits(&random) >> (random_bits(&random) % 64);
@@ -110,9 +107,8 @@ static void doubles_are_strtods(void **state)
   }
 }
 
-static void halfway_cases(void **state)
+TEST(halfway_cases)
 {
-  (void)state;
   /* Integers half way between two doubles, and one less and one more; also times powers of ten that a division removes
    * again. */
   for (int bits = 54; bits <= 63; bits++) {
@@ -133,15 +129,4 @@ static void halfway_cases(void **state)
   assert_false(decimal_to_double(1, 28, &value));
   assert_false(decimal_to_double(1, -28, &value));
   assert_false(decimal_to_double(0, 0, &value));
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(digits_are_printfs),
-    cmocka_unit_test(ties_and_powers),
-    cmocka_unit_test(doubles_are_strtods),
-    cmocka_unit_test(halfway_cases),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

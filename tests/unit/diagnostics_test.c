@@ -83,9 +83,8 @@ static void told_with_the_nth_block_missing(void *(*hook)(void *context, void *b
   source_destroy(source);
 }
 
-static void nothing_said_is_lost(void **state)
+TEST(nothing_said_is_lost)
 {
-  (void)state;
   for (size_t length = 1; length <= LONG_NAME; length++) {
     told_with_the_nth_block_missing(resize, length);
     told_with_the_nth_block_missing(resize_until, length);
@@ -93,9 +92,8 @@ static void nothing_said_is_lost(void **state)
 }
 
 /* A line of a stream is reported by its number in the stream, although the rest of the stream is not there. */
-static void lines_before_a_text_count(void **state)
+TEST(lines_before_a_text_count)
 {
-  (void)state;
   struct source *source = source_from_text("<stdin>", "1 x 3", 5);
   struct told told = {.diagnostics = {.tell = keep}};
   told.diagnostics.context = &told;
@@ -114,9 +112,8 @@ static void keep_all(void *context, const char *text, size_t length)
 }
 
 /* After the last that is shown one line says so. More are only counted, errors and warnings separately. */
-static void so_many_are_shown(void **state)
+TEST(so_many_are_shown)
 {
-  (void)state;
   const struct place nowhere = {NULL, 0, 0};
   struct told told = {.diagnostics = {.tell = keep_all}};
   char expected[sizeof told.text] = "";
@@ -135,9 +132,8 @@ static void so_many_are_shown(void **state)
 }
 
 /* Well-formed UTF-8, at the edges of its table (RFC 3629, section 4). */
-static void characters_are_well_formed(void **state)
+TEST(characters_are_well_formed)
 {
-  (void)state;
   static const struct {
     const char *text;
     size_t bytes;
@@ -168,12 +164,4 @@ static void characters_are_well_formed(void **state)
     assert_int_equal(source_character(table[k].text, length), table[k].bytes);
     if (table[k].bytes > 1) assert_int_equal(source_character(table[k].text, length - 1), 0); /* cut off */
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_said_is_lost),
-                                     cmocka_unit_test(lines_before_a_text_count), cmocka_unit_test(so_many_are_shown),
-                                     cmocka_unit_test(characters_are_well_formed)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

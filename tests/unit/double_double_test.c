@@ -30,9 +30,8 @@ static struct double_double some_pair(struct random *random)
 
 static int normal(struct double_double a) { return a.hi + a.lo == a.hi; }
 
-static void sums_and_products_of_two_are_exact(void **state)
+TEST(sums_and_products_of_two_are_exact)
 {
-  (void)state;
   struct random random = {SEED};
   for (int n = 0; n < CASES; n++) {
     const double a = some(&random), b = n % 3 ? some(&random) : -a * (1 + 0x1p-52 * (double)(random_bits(&random) % 4));
@@ -47,9 +46,8 @@ static void sums_and_products_of_two_are_exact(void **state)
 
 /* If operands cancel, the error is relative to the sum of their sizes, not to the result's: the low parts are added in
  * one double. */
-static void operations_are_right_to_their_bound(void **state)
+TEST(operations_are_right_to_their_bound)
 {
-  (void)state;
   struct random random = {SEED + 1};
   double worst[3] = {0};
   for (int n = 0; n < CASES; n++) {
@@ -77,9 +75,8 @@ static void cancelling_pairs(struct random *random, struct double_double *a, str
 }
 
 /* Sums that cancel have a small relative error too (the accurate sum of two pairs). */
-static void cancelling_sums_are_right(void **state)
+TEST(cancelling_sums_are_right)
 {
-  (void)state;
   struct random random = {SEED + 2};
   double worst = 0;
   for (int n = 0; n < CASES; n++) {
@@ -97,9 +94,8 @@ static void cancelling_sums_are_right(void **state)
   assert_true(worst <= FEW);
 }
 
-static void negation_and_normal_form(void **state)
+TEST(negation_and_normal_form)
 {
-  (void)state;
   const struct double_double a = dd_negate(dd_two_sum(1, 0x1p-60)), b = dd_normal(1, 0x1p-30);
   assert_true(a.hi == -1 && a.lo == -0x1p-60);
   assert_true(b.hi == 1 + 0x1p-30 && b.lo == 0);
@@ -108,11 +104,5 @@ static void negation_and_normal_form(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sums_and_products_of_two_are_exact),
-    cmocka_unit_test(operations_are_right_to_their_bound),
-    cmocka_unit_test(cancelling_sums_are_right),
-    cmocka_unit_test(negation_and_normal_form),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -73,9 +73,8 @@ static size_t alone(const struct edge_neighbour *n, size_t count)
   return sum;
 }
 
-static void every_pair_of_borders_both_ways(void **state)
+TEST(every_pair_of_borders_both_ways)
 {
-  (void)state;
   struct random random = {SEED};
   for (int from = 0; from < 4; from++) {
     for (int to = 0; to < 4; to++) {
@@ -92,9 +91,8 @@ static void every_pair_of_borders_both_ways(void **state)
   }
 }
 
-static void a_patch_may_meet_itself(void **state)
+TEST(a_patch_may_meet_itself)
 {
-  (void)state;
   struct random random = {SEED + 1};
   for (int reversed = 0; reversed < 2; reversed++) {
     net P[1];
@@ -113,9 +111,8 @@ static void a_patch_may_meet_itself(void **state)
   assert_pair(n, 0, 0, 0, 2, false);
 }
 
-static void more_than_two_at_one_border_are_none(void **state)
+TEST(more_than_two_at_one_border_are_none)
 {
-  (void)state;
   struct random random = {SEED + 2};
   for (size_t count = 3; count <= 5; count++) {
     net P[5];
@@ -128,9 +125,8 @@ static void more_than_two_at_one_border_are_none(void **state)
 }
 
 /* Patches that are left out have no neighbours, and do not hide those of others. */
-static void those_left_out_are_alone(void **state)
+TEST(those_left_out_are_alone)
 {
-  (void)state;
   struct random random = {SEED + 6};
   static const bool left_out[3] = {false, true, false};
   net P[3];
@@ -144,9 +140,8 @@ static void those_left_out_are_alone(void **state)
   assert_int_equal(alone(n, 3), 10);
 }
 
-static void collapsed_borders_are_none(void **state)
+TEST(collapsed_borders_are_none)
 {
-  (void)state;
   struct random random = {SEED + 3};
   net P[2];
   struct edge_neighbour n[8];
@@ -160,9 +155,8 @@ static void collapsed_borders_are_none(void **state)
 }
 
 /* A difference in one last bit is a difference. */
-static void nearly_equal_is_not_equal(void **state)
+TEST(nearly_equal_is_not_equal)
 {
-  (void)state;
   struct random random = {SEED + 4};
   for (int k = 0; k < 4; k++) {
     for (int c = 0; c < 3; c++) {
@@ -179,9 +173,8 @@ static void nearly_equal_is_not_equal(void **state)
 }
 
 /* -0 and 0 are the same place: a mirrored patch has -0 where its twin has 0. */
-static void zeros_of_either_sign_are_equal(void **state)
+TEST(zeros_of_either_sign_are_equal)
 {
-  (void)state;
   struct random random = {SEED + 5};
   enum { PAIRS = 40 };
   static net P[2 * PAIRS];
@@ -224,9 +217,8 @@ static void zeros_of_either_sign_are_equal(void **state)
 
 /* A grid of patches, with nets inside larger records and in a shuffled order. Every inner border is found, and no outer
  * one. */
-static void a_grid_with_a_stride(void **state)
+TEST(a_grid_with_a_stride)
 {
-  (void)state;
   enum { SIDE = 6, COUNT = SIDE * SIDE };
   struct record {
     net P;
@@ -266,9 +258,8 @@ static void a_grid_with_a_stride(void **state)
   }
 }
 
-static void points_run_with_the_parameter_and_none_is_fine(void **state)
+TEST(points_run_with_the_parameter_and_none_is_fine)
 {
-  (void)state;
   struct random random = {SEED + 7};
   net P;
   random_net(&random, P);
@@ -283,16 +274,5 @@ static void points_run_with_the_parameter_and_none_is_fine(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_pair_of_borders_both_ways),
-    cmocka_unit_test(a_patch_may_meet_itself),
-    cmocka_unit_test(more_than_two_at_one_border_are_none),
-    cmocka_unit_test(those_left_out_are_alone),
-    cmocka_unit_test(collapsed_borders_are_none),
-    cmocka_unit_test(nearly_equal_is_not_equal),
-    cmocka_unit_test(zeros_of_either_sign_are_equal),
-    cmocka_unit_test(a_grid_with_a_stride),
-    cmocka_unit_test(points_run_with_the_parameter_and_none_is_fine),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

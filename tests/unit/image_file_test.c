@@ -36,6 +36,8 @@ static int remove_path(void **state)
   return 0;
 }
 
+#define WITH_FILE(test) TEST_WITH(test, make_path, remove_path)
+
 static struct image picture(size_t channels, const char *const names[])
 {
   struct image image;
@@ -71,9 +73,8 @@ static void *no_work(void *unused) { return unused; }
 
 /* Must be the first test. OpenEXR's threads exist once OpenImageIO is ready, so a picture can be made when no thread
  * can be started any more. None can: each would need a stack larger than any machine's memory. */
-static void exr_is_made_without_new_threads(void **state)
+WITH_FILE(exr_is_made_without_new_threads)
 {
-  (void)state;
   char message[IMAGE_MESSAGE_SIZE];
   assert_int_equal(image_file_ready(message), STATUS_OK);
   pthread_attr_t before, huge;
@@ -93,9 +94,8 @@ static void exr_is_made_without_new_threads(void **state)
   pthread_attr_destroy(&huge);
 }
 
-static void png_holds_the_nearest_codes(void **state)
+WITH_FILE(png_holds_the_nearest_codes)
 {
-  (void)state;
   const char *const names[] = {"R", "G", "B"};
   struct image image = picture(3, names);
   image.value[0] = 7; /* clipped */
@@ -112,9 +112,8 @@ static void png_holds_the_nearest_codes(void **state)
   image_destroy(&image);
 }
 
-static void encoded_values_take_no_curve(void **state)
+WITH_FILE(encoded_values_take_no_curve)
 {
-  (void)state;
   const char *const names[] = {"Y"};
   struct image image = picture(1, names);
   const struct image_encoding encoding = {.format = IMAGE_PNG, .bits = 8, .encoded = true};
@@ -126,9 +125,8 @@ static void encoded_values_take_no_curve(void **state)
 }
 
 /* Colours are kept as half, data as float, and found by name in whatever order the file has them. */
-static void exr_keeps_values_and_names(void **state)
+WITH_FILE(exr_keeps_values_and_names)
 {
-  (void)state;
   const char *const names[] = {"R", "G", "B", "depth", "normal.x"};
   struct image image = picture(5, names);
   image.channel[3].data = image.channel[4].data = true;
@@ -168,9 +166,8 @@ static bool end_soon(void *context, double part)
 }
 
 /* Progress reaches the end of the file; rows that are written separately make the whole picture. */
-static void encoding_is_told(void **state)
+WITH_FILE(encoding_is_told)
 {
-  (void)state;
   enum { TALL = 1000 };
   struct image image;
   double last = 0;
@@ -195,9 +192,8 @@ static void encoding_is_told(void **state)
 }
 
 /* Neither writing nor reading divides or multiplies by a channel that could be opacity. */
-static void no_channel_is_opacity(void **state)
+WITH_FILE(no_channel_is_opacity)
 {
-  (void)state;
   static const char *const names[] = {"R", "G", "B", "A"};
   for (size_t channels = 2; channels <= 4; channels += 2) {
     struct image image = picture(channels, names);
@@ -217,9 +213,8 @@ static void no_channel_is_opacity(void **state)
 }
 
 /* A crop keeps its place, packed either way. Its own texts come back, others do not. */
-static void exr_keeps_its_window_and_texts(void **state)
+WITH_FILE(exr_keeps_its_window_and_texts)
 {
-  (void)state;
   const char *const names[] = {"R", "G", "B"};
   const struct image_attribute attributes[] = {
     {"pscn:scene", "a=b\n.pscn"}, {"pscn:size", "70x50"}, {"Software", "us"}};
@@ -265,9 +260,8 @@ static enum status answer(void *context, const struct image *image, const struct
 }
 
 /* The areas' pixels are read. Of a file in tiles no others are; of one in rows, or if all tiles are needed, all are. */
-static void areas_of_a_picture_are_read(void **state)
+WITH_FILE(areas_of_a_picture_are_read)
 {
-  (void)state;
   const char *const names[] = {"R", "G", "B"};
   static const int first[HEIGHT][WIDTH] = {/* the area that a pixel is in, from 1 */
                                            {0, 1, 0, 0, 0},
@@ -305,9 +299,8 @@ static void areas_of_a_picture_are_read(void **state)
 }
 
 /* If pixels lie outside the picture that they claim to be part of, on any side, they are read as a whole picture. */
-static void exr_outside_its_picture_is_a_whole(void **state)
+WITH_FILE(exr_outside_its_picture_is_a_whole)
 {
-  (void)state;
   const char *const names[] = {"R", "G", "B"};
   static const int places[][2] = {{-1, 0}, {0, -1}, {6, 0}, {0, 8}, {5, 7} /* the last that is inside */};
   struct image image = picture(3, names);
@@ -325,9 +318,8 @@ static void exr_outside_its_picture_is_a_whole(void **state)
   image_destroy(&image);
 }
 
-static void png_refuses_five_channels_and_none(void **state)
+TEST(png_refuses_five_channels_and_none)
 {
-  (void)state;
   const char *const names[] = {"a", "b", "c", "d", "e"};
   struct image image = picture(5, names);
   unsigned char *bytes;
@@ -371,9 +363,8 @@ static void write_tiff(const struct tiff *tiff, size_t lacking)
 }
 
 /* Two grey pixels. A file that is cut off is refused, although OpenImageIO would invent the missing pixels. */
-static void tiff_is_read_in_both_orders_of_bytes(void **state)
+WITH_FILE(tiff_is_read_in_both_orders_of_bytes)
 {
-  (void)state;
   for (int big = 0; big < 2; big++) {
     for (size_t lacking = 0; lacking < 2; lacking++) {
       write_tiff(&(struct tiff){big, .columns = 1, .compression = 1, .photometric = 1, .samples = 1, .bytes = 2},
@@ -394,9 +385,8 @@ static void tiff_is_read_in_both_orders_of_bytes(void **state)
 /* For such files OpenImageIO would return whatever else is in memory. One has eight pixels that share their colours by
  * fours, the format's default, in 12 bytes where pixels have 24. The other is no zip; of that OpenImageIO says nothing
  * when it reads more than a row. */
-static void tiff_without_the_bytes_of_its_pixels_is_refused(void **state)
+WITH_FILE(tiff_without_the_bytes_of_its_pixels_is_refused)
 {
-  (void)state;
   static const struct tiff shared = {.columns = 4, .compression = 1, .photometric = 6, .samples = 3, .bytes = 12},
                            no_zip = {.columns = 4, .compression = 8, .photometric = 1, .samples = 1, .bytes = 8};
   char message[IMAGE_MESSAGE_SIZE] = "";
@@ -410,9 +400,8 @@ static void tiff_without_the_bytes_of_its_pixels_is_refused(void **state)
   assert_true(message[0] != '\0');
 }
 
-static void unreadable_files_are_told(void **state)
+WITH_FILE(unreadable_files_are_told)
 {
-  (void)state;
   static const char *const texts[] = {"", "no picture at all\n", "\x89PNG\r\n\x1a\n", "\x76\x2f\x31\x01"};
   char message[IMAGE_MESSAGE_SIZE];
   struct image image;
@@ -431,9 +420,8 @@ static void unreadable_files_are_told(void **state)
 }
 
 /* A file of 65 bytes that asks PNG's reader for 60000 x 60000 pixels. */
-static void pictures_without_bounds_are_refused(void **state)
+WITH_FILE(pictures_without_bounds_are_refused)
 {
-  (void)state;
   static const unsigned char large[] = {137, 80,  78, 71, 13, 10,  26, 10,  0,   0,  0,   13, 73,  72,  68, 82,  0,
                                         0,   234, 96, 0,  0,  234, 96, 8,   0,   0,  0,   0,  165, 185, 42, 158, 0,
                                         0,   0,   8,  73, 68, 65,  84, 120, 156, 3,  0,   0,  0,   0,   1,  72,  6,
@@ -459,9 +447,8 @@ static bool is_size(const unsigned char *bytes, size_t size, size_t at)
   return false;
 }
 
-static void damaged_pictures_are_read_or_refused(void **state)
+WITH_FILE(damaged_pictures_are_read_or_refused)
 {
-  (void)state;
   enum { SEED = 20261122, ROUNDS = 150, MOST = 3 };
   struct random random = {SEED};
   const char *const names[] = {"R", "G", "B"};
@@ -497,9 +484,8 @@ static void damaged_pictures_are_read_or_refused(void **state)
   assert_true(read > ROUNDS / 10 && refused > ROUNDS / 2);
 }
 
-static void suffixes_choose_formats(void **state)
+TEST(suffixes_choose_formats)
 {
-  (void)state;
   enum image_format format;
   assert_true(image_format_of("a.png", &format) && format == IMAGE_PNG);
   assert_true(image_format_of("b/a.b.EXR", &format) && format == IMAGE_EXR);
@@ -507,38 +493,11 @@ static void suffixes_choose_formats(void **state)
   for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) assert_false(image_format_of(none[k], &format));
 }
 
-static void absurd_sizes_are_refused(void **state)
+TEST(absurd_sizes_are_refused)
 {
-  (void)state;
   struct image image;
   assert_int_equal(image_create(SIZE_MAX / 2, 3, 3, &image), STATUS_LIMIT);
   assert_int_equal(image_create(SIZE_MAX / 8, 1, 3, &image), STATUS_LIMIT);
   assert_int_equal(image_create(1, (size_t)IMAGE_MAX_PIXELS + 1, 0, &image), STATUS_LIMIT);
   assert_null(image.value);
-}
-
-#define WITH_FILE(test) cmocka_unit_test_setup_teardown(test, make_path, remove_path)
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    WITH_FILE(exr_is_made_without_new_threads),
-    WITH_FILE(png_holds_the_nearest_codes),
-    WITH_FILE(encoded_values_take_no_curve),
-    WITH_FILE(exr_keeps_values_and_names),
-    WITH_FILE(exr_keeps_its_window_and_texts),
-    WITH_FILE(areas_of_a_picture_are_read),
-    WITH_FILE(exr_outside_its_picture_is_a_whole),
-    WITH_FILE(encoding_is_told),
-    WITH_FILE(no_channel_is_opacity),
-    cmocka_unit_test(png_refuses_five_channels_and_none),
-    WITH_FILE(tiff_is_read_in_both_orders_of_bytes),
-    WITH_FILE(tiff_without_the_bytes_of_its_pixels_is_refused),
-    WITH_FILE(unreadable_files_are_told),
-    WITH_FILE(pictures_without_bounds_are_refused),
-    WITH_FILE(damaged_pictures_are_read_or_refused),
-    cmocka_unit_test(suffixes_choose_formats),
-    cmocka_unit_test(absurd_sizes_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

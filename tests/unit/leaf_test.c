@@ -85,11 +85,7 @@ static void leaves_of_any_company(struct random *random, int kind, const struct 
   free(apart);
 }
 
-static void leaves_do_not_depend_on_their_neighbours(void **state)
-{
-  (void)state;
-  for_patches(0, leaves_of_any_company);
-}
+TEST(leaves_do_not_depend_on_their_neighbours) { for_patches(0, leaves_of_any_company); }
 
 /* Coordinates of few bits leave no rest, so both ways of cutting agree exactly. */
 static void parts_as_cut_one_by_one(struct random *random, int kind, const struct model_patch *patch)
@@ -114,11 +110,7 @@ static void parts_as_cut_one_by_one(struct random *random, int kind, const struc
   }
 }
 
-static void parts_are_subnets(void **state)
-{
-  (void)state;
-  for_patches(1, parts_as_cut_one_by_one);
-}
+TEST(parts_are_subnets) { for_patches(1, parts_as_cut_one_by_one); }
 
 /* ---- what is known of a leaf ---- */
 
@@ -174,9 +166,8 @@ static void leaf_is_its_part(struct random *random, int kind, const struct model
   }
 }
 
-static void leaves_are_their_parts_of_the_patch(void **state)
+TEST(leaves_are_their_parts_of_the_patch)
 {
-  (void)state;
   for_patches(2, leaf_is_its_part);
   print_message(
     "Taylor's polynomial off by %.3g roundings; of its box a point reaches %.17g, of its bounds a derivative %.17g\n",
@@ -248,9 +239,8 @@ static void leaf_lies_along_its_quadric(struct random *random, int kind, const s
   }
 }
 
-static void leaves_lie_along_their_quadrics(void **state)
+TEST(leaves_lie_along_their_quadrics)
 {
-  (void)state;
   for_patches(3, leaf_lies_along_its_quadric);
   print_message(
     "%d leaves with a quadric, %d with one that tells of slopes; of what is allowed the rest takes %.3g, its "
@@ -270,9 +260,8 @@ static quad second(const struct quad_net *net, quad u, quad v, int kind)
   return (kind == 0 ? high.du - low.du : high.dv - low.dv) / (2 * h);
 }
 
-static void second_derivative_bounds_hold_and_are_near(void **state)
+TEST(second_derivative_bounds_hold_and_are_near)
 {
-  (void)state;
   struct random random = {SEED + 6};
   double worst = 0, best = INFINITY;
   const struct part_grid whole = {{1, 1}, {1, 1}, 0};
@@ -311,10 +300,5 @@ static void second_derivative_bounds_hold_and_are_near(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(leaves_do_not_depend_on_their_neighbours),   cmocka_unit_test(parts_are_subnets),
-    cmocka_unit_test(leaves_are_their_parts_of_the_patch),        cmocka_unit_test(leaves_lie_along_their_quadrics),
-    cmocka_unit_test(second_derivative_bounds_hold_and_are_near),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

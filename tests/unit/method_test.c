@@ -6,9 +6,8 @@
 #include "cmocka_test.h"
 
 /* What get reads, set writes. Set in the order of the table, a block reads back unchanged. */
-static void items_round_trip(void **state)
+TEST(items_round_trip)
 {
-  (void)state;
   for (size_t i = 0; i < method_item_count(); i++) {
     const struct method_item *item = method_item_at(i);
     struct method options, copy;
@@ -27,9 +26,8 @@ static void items_round_trip(void **state)
 }
 
 /* The paper's choices select the paper's iteration, in whatever order they are made, unless a form is named. */
-static void form_follows_the_paper(void **state)
+TEST(form_follows_the_paper)
 {
-  (void)state;
   static const struct {
     const char *name;
     double value;
@@ -64,9 +62,8 @@ static void form_follows_the_paper(void **state)
 }
 
 /* The text omits what follows from the rest. A text too long is cut off between two words. */
-static void text_says_what_differs(void **state)
+TEST(text_says_what_differs)
 {
-  (void)state;
   struct method method;
   char text[METHOD_TEXT_SIZE];
   method_default(solver_find("newton", 6), &method);
@@ -86,14 +83,4 @@ static void text_says_what_differs(void **state)
   assert_true(strlen(little) < sizeof little);
   assert_null(method_item_find("nothing"));
   assert_null(method_item_at(method_item_count()));
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(items_round_trip),
-    cmocka_unit_test(form_follows_the_paper),
-    cmocka_unit_test(text_says_what_differs),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

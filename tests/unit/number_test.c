@@ -23,9 +23,8 @@ static void expect_read(const char *text, enum number_kind kind, double expected
   assert_true(value == expected && signbit(value) == signbit(expected));
 }
 
-static void what_is_a_number(void **state)
+TEST(what_is_a_number)
 {
-  (void)state;
   static const char *const none[] = {"", ".", "-", "+.", "-.e5", "e5", ".e5", " 1", "inf", "nan", "+-1", ",5"};
   for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) expect_read(none[k], NUMBER_NONE, 0, 0);
   static const struct {
@@ -69,9 +68,8 @@ static void what_is_a_number(void **state)
 }
 
 /* Random digits, with or without a point and an exponent, are read as by strtod. */
-static void it_is_the_nearest_double(void **state)
+TEST(it_is_the_nearest_double)
 {
-  (void)state;
   struct random random = {SEED};
   for (int n = 0; n < MANY; n++) {
     char text[64];
@@ -88,9 +86,8 @@ static void it_is_the_nearest_double(void **state)
 }
 
 /* Half way between two doubles the even one is taken; a single digit, however far behind, decides otherwise. */
-static void ties_are_decided_by_all_digits(void **state)
+TEST(ties_are_decided_by_all_digits)
 {
-  (void)state;
   char text[LONG];
   for (int more = 0; more < 2; more++) {
     const int length = snprintf(text, sizeof text, "9007199254740993.%0900d", more);
@@ -105,9 +102,8 @@ static void ties_are_decided_by_all_digits(void **state)
   expect_read(text, NUMBER_FINITE, DBL_MIN - DBL_TRUE_MIN, (size_t)length);
 }
 
-static void zeros_on_either_side_count_for_nothing(void **state)
+TEST(zeros_on_either_side_count_for_nothing)
 {
-  (void)state;
   char text[LONG];
   int length = snprintf(text, sizeof text, "0.%0900de900", 1);
   expect_read(text, NUMBER_FINITE, 1, (size_t)length);
@@ -124,9 +120,8 @@ static void expect_written(double value, const char *shortest, const char *all)
   assert_string_equal(text, all);
 }
 
-static void what_is_written(void **state)
+TEST(what_is_written)
 {
-  (void)state;
   expect_written(0.1, "0.1", "0.10000000000000001");
   expect_written(-1.0 / 3, "-0.3333333333333333", "-0.33333333333333331");
   expect_written(1e16, "10000000000000000", "10000000000000000");
@@ -146,9 +141,8 @@ static void what_is_written(void **state)
 }
 
 /* And no number of one digit less reads back as the same. */
-static void what_is_written_reads_back(void **state)
+TEST(what_is_written_reads_back)
 {
-  (void)state;
   struct random random = {SEED + 1};
   for (int n = 0; n < MANY; n++) {
     const double value = ldexp(random_between(&random, -2, 2), (int)(random_bits(&random) % 2090) - 1068);
@@ -170,13 +164,5 @@ static void what_is_written_reads_back(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_is_a_number),
-    cmocka_unit_test(it_is_the_nearest_double),
-    cmocka_unit_test(ties_are_decided_by_all_digits),
-    cmocka_unit_test(zeros_on_either_side_count_for_nothing),
-    cmocka_unit_test(what_is_written),
-    cmocka_unit_test(what_is_written_reads_back),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -22,9 +22,8 @@ static void expect(const char *template, const char *json, const char *text)
   json_decref(values);
 }
 
-static void test_values(void **state)
+TEST(test_values)
 {
-  (void)state;
   expect("a {{b}} c", "{\"b\":\"<i>&'\\\"\"}", "a &lt;i&gt;&amp;&#39;&quot; c");
   expect("{{&b}}|{{b:4s}}|{{b:-4s}}|", "{\"b\":\"<x\"}", "<x|  <x|<x  |");
   expect("{{n}} {{n:5d}} {{n:.2f}}", "{\"n\":42}", "42    42 42.00");
@@ -34,9 +33,8 @@ static void test_values(void **state)
   expect("{{}} {{ {b}", "{\"b\":1}", " {{ {b}");
 }
 
-static void test_sections(void **state)
+TEST(test_sections)
 {
-  (void)state;
   expect("{{#rows}}<{{a}}{{b}}>{{/rows}}", "{\"b\":9,\"rows\":[{\"a\":1},{\"a\":2,\"b\":3}]}", "<19><23>");
   expect("{{#o}}{{#p}}{{x}}{{y}}{{/p}}{{/o}}", "{\"x\":0,\"o\":{\"x\":1,\"p\":{\"y\":2}}}", "12");
   expect("{{#o}}{{x}}{{/o}}{{x}}", "{\"x\":0,\"o\":{\"x\":1}}", "10"); /* a name regains its outer meaning */
@@ -50,9 +48,8 @@ static void test_sections(void **state)
   expect("{{#a}}{{#ab}}x{{/ab}}y{{/a}}z", "{\"a\":[1,2],\"ab\":true}", "xyxyz"); /* names that begin alike */
 }
 
-static void test_printable(void **state)
+TEST(test_printable)
 {
-  (void)state;
   const struct {
     const char *text, *shown;
   } cases[] = {{"plain \xc3\xa4\n", "plain \xc3\xa4\n"},
@@ -75,9 +72,8 @@ static void test_printable(void **state)
 }
 
 /* Values that were cut short for lack of memory make no page. */
-static void test_failed(void **state)
+TEST(test_failed)
 {
-  (void)state;
   struct text_buffer page = {0};
   fill_template(&page, "x", NULL);
   assert_true(page.failed && page.length == 0);
@@ -85,9 +81,8 @@ static void test_failed(void **state)
 }
 
 /* There is always room for a NUL. */
-static void test_room(void **state)
+TEST(test_room)
 {
-  (void)state;
   struct text_buffer page = {.text = malloc(8), .room = 8};
   assert_non_null(page.text);
   text_buffer_add(&page, "1234567", 7);
@@ -104,9 +99,8 @@ void *__real_realloc(void *block, size_t size);
 void *__wrap_realloc(void *block, size_t size);
 void *__wrap_realloc(void *block, size_t size) { return left >= 0 && left-- == 0 ? NULL : __real_realloc(block, size); }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-  (void)state;
   static const char template[] =
     "{{t}} {{n:5d}} {{x:.3g}} {{x}} {{#rows}}<{{a}}>and much more text than there was before, so that the page "
     "has to grow where nothing is filled in{{/rows}} {{&t}}";
@@ -136,12 +130,4 @@ static void test_memory(void **state)
   }
   text_buffer_free(&whole);
   json_decref(values);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),    cmocka_unit_test(test_sections),
-                                     cmocka_unit_test(test_printable), cmocka_unit_test(test_room),
-                                     cmocka_unit_test(test_failed),    cmocka_unit_test(test_memory)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

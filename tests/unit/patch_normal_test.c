@@ -58,9 +58,8 @@ static void collapse_column(double x[3][4][4], int j)
     for (int i = 1; i < 4; i++) x[k][i][j] = x[k][0][j];
 }
 
-static void regular_points(void **state)
+TEST(regular_points)
 {
-  (void)state;
   struct random random = {SEED};
   for (int n = 0; n < 3000; n++) {
     double x[3][4][4], got[3], want[3];
@@ -75,9 +74,8 @@ static void regular_points(void **state)
 
 /* A whole border is one point. The normal is the limit on the way to it, a different one at each parameter of the
  * border. */
-static void collapsed_edges(void **state)
+TEST(collapsed_edges)
 {
-  (void)state;
   struct random random = {SEED + 1};
   for (int n = 0; n < 400; n++) {
     double x[3][4][4], got[3], want[3];
@@ -93,9 +91,8 @@ static void collapsed_edges(void **state)
 }
 
 /* Next to such a border Su x Sv is nearly lost. The normal continues there without jump or noise. */
-static void near_collapsed_edges(void **state)
+TEST(near_collapsed_edges)
 {
-  (void)state;
   struct random random = {SEED + 2};
   for (int n = 0; n < 200; n++) {
     double x[3][4][4], got[3], want[3];
@@ -112,9 +109,8 @@ static void near_collapsed_edges(void **state)
 }
 
 /* Two control points coincide at a corner: Su or Sv vanishes there alone. */
-static void collapsed_corners(void **state)
+TEST(collapsed_corners)
 {
-  (void)state;
   struct random random = {SEED + 3};
   for (int n = 0; n < 400; n++) {
     double x[3][4][4], got[3], want[3];
@@ -131,9 +127,8 @@ static void collapsed_corners(void **state)
 }
 
 /* Both derivatives vanish at a corner, which coincides with its three neighbours (two of them on the borders). */
-static void doubly_collapsed_corners(void **state)
+TEST(doubly_collapsed_corners)
 {
-  (void)state;
   struct random random = {SEED + 4};
   for (int n = 0; n < 400; n++) {
     double x[3][4][4], got[3], want[3];
@@ -147,9 +142,8 @@ static void doubly_collapsed_corners(void **state)
 }
 
 /* Two borders that are points meet at a corner. */
-static void two_collapsed_edges_in_a_corner(void **state)
+TEST(two_collapsed_edges_in_a_corner)
 {
-  (void)state;
   struct random random = {SEED + 5};
   for (int n = 0; n < 400; n++) {
     double x[3][4][4], got[3], want[3];
@@ -165,9 +159,8 @@ static void two_collapsed_edges_in_a_corner(void **state)
   }
 }
 
-static void no_normal_where_there_is_no_surface(void **state)
+TEST(no_normal_where_there_is_no_surface)
 {
-  (void)state;
   struct random random = {SEED + 6};
   for (int n = 0; n < 300; n++) {
     double x[3][4][4], got[3] = {1, 1, 1};
@@ -187,9 +180,8 @@ static void no_normal_where_there_is_no_surface(void **state)
 }
 
 /* Scaling and moving change nothing: the noise threshold is relative to the extent. */
-static void size_does_not_matter(void **state)
+TEST(size_does_not_matter)
 {
-  (void)state;
   struct random random = {SEED + 7};
   for (int n = 0; n < 200; n++) {
     double x[3][4][4], y[3][4][4], a[3], b[3];
@@ -206,15 +198,5 @@ static void size_does_not_matter(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(regular_points),
-    cmocka_unit_test(collapsed_edges),
-    cmocka_unit_test(near_collapsed_edges),
-    cmocka_unit_test(collapsed_corners),
-    cmocka_unit_test(doubly_collapsed_corners),
-    cmocka_unit_test(two_collapsed_edges_in_a_corner),
-    cmocka_unit_test(no_normal_where_there_is_no_surface),
-    cmocka_unit_test(size_does_not_matter),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

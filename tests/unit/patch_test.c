@@ -38,9 +38,8 @@ static void to_quad(double net[4][4], struct quad_net *out)
   for (int k = 0; k < 16; k++) out->c[k / 4][k % 4] = net[k / 4][k % 4];
 }
 
-static void evaluation_is_right_to_its_roundings(void **state)
+TEST(evaluation_is_right_to_its_roundings)
 {
-  (void)state;
   struct random random = {SEED};
   double worst[3] = {0};
   for (int n = 0; n < CASES * 5; n++) {
@@ -64,9 +63,8 @@ static void evaluation_is_right_to_its_roundings(void **state)
   assert_true(worst[0] > 0.5 && worst[1] > 0.5 && worst[2] > 0.5);
 }
 
-static void corners_are_exact(void **state)
+TEST(corners_are_exact)
 {
-  (void)state;
   struct random random = {SEED + 1};
   for (int n = 0; n < 100; n++) {
     double net[4][4];
@@ -76,9 +74,8 @@ static void corners_are_exact(void **state)
 }
 
 /* A subnet is the same polynomial: each control value is that of the restriction in quadruple precision. */
-static void subnets_are_right_to_their_roundings(void **state)
+TEST(subnets_are_right_to_their_roundings)
 {
-  (void)state;
   struct random random = {SEED + 2};
   double worst = 0;
   for (int n = 0; n < CASES; n++) {
@@ -109,9 +106,8 @@ static void subnets_are_right_to_their_roundings(void **state)
   assert_true(worst <= SUBNET_ROUNDINGS && worst > 0.5);
 }
 
-static void the_whole_is_copied_and_cuts_agree(void **state)
+TEST(the_whole_is_copied_and_cuts_agree)
 {
-  (void)state;
   struct random random = {SEED + 3};
   for (int n = 0; n < CASES; n++) {
     double net[4][4], a[4][4], b[4][4];
@@ -137,9 +133,8 @@ static void the_whole_is_copied_and_cuts_agree(void **state)
 }
 
 /* The polynomial continues outside [0,1]; a leaf's margin relies on it. */
-static void parameters_beyond_the_range_extrapolate(void **state)
+TEST(parameters_beyond_the_range_extrapolate)
 {
-  (void)state;
   struct random random = {SEED + 5};
   for (int n = 0; n < 200; n++) {
     double net[4][4], wide[4][4];
@@ -176,9 +171,8 @@ static void elevated(const double low[4][4], int m, int n, double scale, double 
 }
 
 /* All nine bidegrees at several scales and offsets, within the slack for one rounding of the coordinates. */
-static void true_bidegrees_are_found(void **state)
+TEST(true_bidegrees_are_found)
 {
-  (void)state;
   struct random random = {SEED + 7};
   static const struct {
     double scale, offset;
@@ -206,9 +200,8 @@ static void true_bidegrees_are_found(void **state)
   }
 }
 
-static void a_change_beyond_the_slack_is_seen(void **state)
+TEST(a_change_beyond_the_slack_is_seen)
 {
-  (void)state;
   struct random random = {SEED + 8};
   for (int k = 0; k < 2000; k++) {
     double low[4][4], x[3][4][4];
@@ -225,9 +218,8 @@ static void a_change_beyond_the_slack_is_seen(void **state)
   }
 }
 
-static void reduced_nets_are_the_nets_that_were_raised(void **state)
+TEST(reduced_nets_are_the_nets_that_were_raised)
 {
-  (void)state;
   struct random random = {SEED + 9};
   double worst = 0;
   for (int m = 1; m <= 3; m++) {
@@ -254,15 +246,5 @@ static void reduced_nets_are_the_nets_that_were_raised(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(evaluation_is_right_to_its_roundings),
-    cmocka_unit_test(corners_are_exact),
-    cmocka_unit_test(subnets_are_right_to_their_roundings),
-    cmocka_unit_test(the_whole_is_copied_and_cuts_agree),
-    cmocka_unit_test(parameters_beyond_the_range_extrapolate),
-    cmocka_unit_test(true_bidegrees_are_found),
-    cmocka_unit_test(a_change_beyond_the_slack_is_seen),
-    cmocka_unit_test(reduced_nets_are_the_nets_that_were_raised),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

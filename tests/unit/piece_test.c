@@ -54,9 +54,8 @@ static enum status read_part(const char *tile, const char *done, struct piece *o
   return read_part_at(0, WIDTH, false, tile, done, out);
 }
 
-static void a_part_tells_which_tiles_it_has(void **state)
+TEST(a_part_tells_which_tiles_it_has)
 {
-  (void)state;
   static const struct {
     const char *text;
     unsigned done;        /* bit k: tile k */
@@ -75,9 +74,8 @@ static void a_part_tells_which_tiles_it_has(void **state)
   }
 }
 
-static void what_cannot_be_is_no_part(void **state)
+TEST(what_cannot_be_is_no_part)
 {
-  (void)state;
   static const char *const lists[] = {
     "6",    "0-6", "3-9999999", "5-4",     "2,1",   "2,2",    "0-2,2",
     "1,",   ",1",  "1-",        "-1",      "1 ",    "one",    "0,99999999999999999999",
@@ -99,9 +97,8 @@ static void what_cannot_be_is_no_part(void **state)
 }
 
 /* Parts belong together if they have certain texts in common. A message names the one that differs. */
-static void parts_of_one_picture_belong_together(void **state)
+TEST(parts_of_one_picture_belong_together)
 {
-  (void)state;
   static char texts[] = "pscn:size=9x9\npscn:crop=0,0,7,5\npscn:samples=1\npscn:channels=rgb\npscn:text=a\n"
                         "pscn:options= --solver 'a b'\npscn:version=2\npscn:arithmetic=avx2\npscn:scene=one.pscn\n";
   static const struct {
@@ -131,9 +128,8 @@ static void parts_of_one_picture_belong_together(void **state)
 
 /* The tiles that are done are copied and written, and no others; none if a channel is missing. A line of text stays one
  * line. */
-static void what_is_done_is_copied(void **state)
+TEST(what_is_done_is_copied)
 {
-  (void)state;
   const struct render_options options = {.width = WIDTH,
                                          .height = HEIGHT,
                                          .crop = {0, 0, WIDTH, HEIGHT},
@@ -173,9 +169,8 @@ static void what_is_done_is_copied(void **state)
 }
 
 /* Data are kept as floats, whatever the bits of colours are. */
-static void channels_are_colours_or_data(void **state)
+TEST(channels_are_colours_or_data)
 {
-  (void)state;
   static const char *const names[] = {"R", "G", "B", "depth", "normal.x", "normal.y", "normal.z"};
   const struct render_options options = {
     .width = WIDTH,
@@ -205,9 +200,8 @@ static uint64_t fold(uint64_t sum) { return sum ^ sum >> 32; }
 
 /* The sum covers all pixels of the picture, one channel after the other, although those outside the tiles are not asked
  * for. */
-static void the_sum_is_of_all_pixels(void **state)
+TEST(the_sum_is_of_all_pixels)
 {
-  (void)state;
   static const unsigned done[] = {63, 45,          6,     32,
                                   0,  45 | 7 << 9, 2 << 8}; /* bit k: tile k; k + 8 to k + 10: rows of it */
   const uint64_t start = UINT64_C(0xcbf29ce484222325);
@@ -243,13 +237,4 @@ static void the_sum_is_of_all_pixels(void **state)
     image_destroy(&whole);
   }
   assert_int_equal(remove(path), 0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_part_tells_which_tiles_it_has),      cmocka_unit_test(what_cannot_be_is_no_part),
-    cmocka_unit_test(parts_of_one_picture_belong_together), cmocka_unit_test(what_is_done_is_copied),
-    cmocka_unit_test(channels_are_colours_or_data),         cmocka_unit_test(the_sum_is_of_all_pixels)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,9 +66,8 @@ static void check_value(struct random *random, const struct polynomial *p, const
   if (moved == p->c) assert_true(found.error <= BOUND_LOOSENESS * p->degree * 0x1p-53 * (double)size + 0x1p-1000);
 }
 
-static void values_lie_within_bounds(void **state)
+TEST(values_lie_within_bounds)
 {
-  (void)state;
   struct random random = {11};
   for (int trial = 0; trial < TRIALS; trial++) {
     struct polynomial p;
@@ -79,9 +78,8 @@ static void values_lie_within_bounds(void **state)
 }
 
 /* The bound of a value contains the bounds of the coefficients: a polynomial moved by these stays within it. */
-static void coefficient_errors_count(void **state)
+TEST(coefficient_errors_count)
 {
-  (void)state;
   struct random random = {12};
   for (int trial = 0; trial < TRIALS; trial++) {
     struct polynomial p;
@@ -95,9 +93,8 @@ static void coefficient_errors_count(void **state)
   }
 }
 
-static void bernstein_form_within_bounds(void **state)
+TEST(bernstein_form_within_bounds)
 {
-  (void)state;
   struct random random = {13};
   for (int trial = 0; trial < TRIALS; trial++) {
     struct polynomial p;
@@ -120,9 +117,8 @@ static void bernstein_form_within_bounds(void **state)
 
 /* Eq 11 at a point next to a root, where no digit of |P| is right in doubles: (x - 1)^3 (x - 2^40), and in x =
  * u/(1-u). */
-static void eq11_is_measured_in_higher_precision(void **state)
+TEST(eq11_is_measured_in_higher_precision)
 {
-  (void)state;
   const double large = 0x1p40, c[] = {large, -1 - 3 * large, 3 + 3 * large, -3 - large, 1};
   const struct polynomial p = {4, BASIS_POWER, c, NULL};
   const double x = 1 + 0x1p-14, d = 0x1p-14;
@@ -160,9 +156,8 @@ static int count_by_enumeration(int degree, const double c[], const double error
   return most;
 }
 
-static void sign_counts_are_sharp(void **state)
+TEST(sign_counts_are_sharp)
 {
-  (void)state;
   struct random random = {14};
   for (int trial = 0; trial < TRIALS; trial++) {
     const int degree = 1 + (int)(random_bits(&random) % LARGEST_COUNTED);
@@ -175,9 +170,8 @@ static void sign_counts_are_sharp(void **state)
   }
 }
 
-static void binomials(void **state)
+TEST(binomials)
 {
-  (void)state;
   for (int n = 0; n <= POLYNOMIAL_MAX_DEGREE; n++) {
     wide row = 0;
     for (int k = 0; k <= n; k++) row += polynomial_binomial(n, k);
@@ -185,14 +179,4 @@ static void binomials(void **state)
   }
   assert_true(polynomial_binomial(18, 9) == 48620.0);
   assert_true(polynomial_binomial(5, 6) == 0.0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(values_lie_within_bounds),     cmocka_unit_test(coefficient_errors_count),
-    cmocka_unit_test(bernstein_form_within_bounds), cmocka_unit_test(eq11_is_measured_in_higher_precision),
-    cmocka_unit_test(sign_counts_are_sharp),        cmocka_unit_test(binomials),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,6 +35,8 @@ static int leave_folder(void **state)
   return result;
 }
 
+#define IN_FOLDER(test) TEST_WITH(test, enter_folder, leave_folder)
+
 /* Runs this program of a shell, otherwise as the request says. */
 static enum status run(struct process_request request, const char *program, struct process_result *out)
 {
@@ -44,9 +46,8 @@ static enum status run(struct process_request request, const char *program, stru
   return process_run(&request, &stop, out);
 }
 
-static void output_is_new_and_input_is_empty(void **state)
+IN_FOLDER(output_is_new_and_input_is_empty)
 {
-  (void)state;
   struct process_result result;
   int ours[2];
   const int saved = dup(STDIN_FILENO);
@@ -59,9 +60,8 @@ static void output_is_new_and_input_is_empty(void **state)
   expect_file(OUTPUT, "out\nerror\n");
 }
 
-static void the_environment_is_changed(void **state)
+IN_FOLDER(the_environment_is_changed)
 {
-  (void)state;
   struct process_result result;
   const char *const pairs[] = {"PSCN_TEST_A", NULL, "PSCN_TEST_B", "new", NULL};
   assert_true(setenv("PSCN_TEST_A", "old", 1) == 0 && setenv("PSCN_TEST_B", "old", 1) == 0);
@@ -72,9 +72,8 @@ static void the_environment_is_changed(void **state)
 }
 
 /* The program obeys these signals even if we ignore them. */
-static void signals_end_it(void **state)
+IN_FOLDER(signals_end_it)
 {
-  (void)state;
   const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGXFSZ};
   for (size_t k = 0; k < sizeof signals / sizeof *signals; k++) {
     char program[50];
@@ -89,9 +88,8 @@ static void signals_end_it(void **state)
 }
 
 /* Soft and hard limits. A shell counts addresses in units of 1024 bytes, files in units of 512. */
-static void limits_are_kept(void **state)
+IN_FOLDER(limits_are_kept)
 {
-  (void)state;
   struct process_result result;
   struct rlimit core, file;
   assert_true(getrlimit(RLIMIT_CORE, &core) == 0 && getrlimit(RLIMIT_FSIZE, &file) == 0);
@@ -107,9 +105,8 @@ static void limits_are_kept(void **state)
   assert_true(setrlimit(RLIMIT_CORE, &core) == 0 && setrlimit(RLIMIT_FSIZE, &file) == 0);
 }
 
-static void it_writes_in_its_folder_only(void **state)
+IN_FOLDER(it_writes_in_its_folder_only)
 {
-  (void)state;
   struct process_result result;
   if (!process_can_confine()) skip();
   assert_int_equal(run((struct process_request){.folder = "inside", .confined = true},
@@ -119,9 +116,8 @@ static void it_writes_in_its_folder_only(void **state)
   assert_int_equal(access("inside/file", R_OK), 0);
 }
 
-static void what_cannot_be_run_is_missing(void **state)
+IN_FOLDER(what_cannot_be_run_is_missing)
 {
-  (void)state;
   const struct {
     const char *program;
     int reason;
@@ -139,9 +135,8 @@ static void what_cannot_be_run_is_missing(void **state)
 }
 
 /* Its time excludes that of the programs before it. */
-static void time_is_its_own(void **state)
+IN_FOLDER(time_is_its_own)
 {
-  (void)state;
   struct process_result busy, idle;
   assert_int_equal(run((struct process_request){0}, "k=0; while [ $k -lt 100000 ]; do k=$((k + 1)); done", &busy),
                    STATUS_OK);
@@ -150,9 +145,8 @@ static void time_is_its_own(void **state)
 }
 
 /* The whole group is asked to end, and has some time for it. Here not the program does so, but one that it started. */
-static void it_is_asked_to_end(void **state)
+IN_FOLDER(it_is_asked_to_end)
 {
-  (void)state;
   struct process_result result;
   assert_int_equal(run((struct process_request){0},
                        "us=$PPID; trap : TERM; (trap 'echo ended; exit' TERM; kill -USR1 $us; while :; do :; done) & "
@@ -163,9 +157,8 @@ static void it_is_asked_to_end(void **state)
 }
 
 /* A program that does not listen is killed: nobody holds the pipe any more. */
-static void it_is_made_to_end(void **state)
+IN_FOLDER(it_is_made_to_end)
 {
-  (void)state;
   struct process_result result;
   int held[2];
   char byte;
@@ -180,28 +173,15 @@ static void it_is_made_to_end(void **state)
   assert_int_equal(close(held[0]), 0);
 }
 
-static void its_time_is_over(void **state)
+IN_FOLDER(its_time_is_over)
 {
-  (void)state;
   struct process_result result;
   assert_int_equal(run((struct process_request){.timeout = 0.05}, "sleep 1000", &result), STATUS_LIMIT);
 }
-
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
 
 int main(void)
 {
   const struct sigaction ready = {.sa_handler = on_ready};
   if (sigaction(SIGUSR1, &ready, NULL) != 0) return 1;
-  const struct CMUnitTest tests[] = {IN_FOLDER(output_is_new_and_input_is_empty),
-                                     IN_FOLDER(the_environment_is_changed),
-                                     IN_FOLDER(signals_end_it),
-                                     IN_FOLDER(limits_are_kept),
-                                     IN_FOLDER(it_writes_in_its_folder_only),
-                                     IN_FOLDER(what_cannot_be_run_is_missing),
-                                     IN_FOLDER(time_is_its_own),
-                                     IN_FOLDER(it_is_asked_to_end),
-                                     IN_FOLDER(it_is_made_to_end),
-                                     IN_FOLDER(its_time_is_over)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

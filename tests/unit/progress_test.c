@@ -45,9 +45,8 @@ static void expect(void (*tell)(struct progress *progress), struct progress prog
   assert_string_equal(told, line);
 }
 
-static void test_rendering(void **state)
+TEST(test_rendering)
 {
-  (void)state;
   const struct progress lines = {.terminal = false}, bar = {.terminal = true};
   const struct {
     size_t pixels;
@@ -74,9 +73,8 @@ static void test_rendering(void **state)
 }
 
 /* The line stays in one row of the terminal, and leaves its last column free. The bar is dropped first. */
-static void test_narrow_terminals(void **state)
+TEST(test_narrow_terminals)
 {
-  (void)state;
   const struct {
     unsigned short columns;
     const char *line;
@@ -94,18 +92,10 @@ static void test_narrow_terminals(void **state)
 }
 
 /* Writing began long ago, or just now. */
-static void test_writing(void **state)
+TEST(test_writing)
 {
-  (void)state;
   expect(tell_written, (struct progress){.told = 0}, "");
   expect(tell_written, (struct progress){.began = -10}, "25 % of the file\n");
   expect(tell_written, (struct progress){.began = -10, .terminal = true},
          "\r[#######.......................] 25 % of the file\033[K\r\033[K");
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rendering), cmocka_unit_test(test_narrow_terminals),
-                                     cmocka_unit_test(test_writing)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,9 +30,8 @@ static void expect_invariance(const struct scene *scene)
 }
 
 /* A camera sees what is just in front of it, and what is very far away. */
-static void all_distances_are_seen(void **state)
+TEST(all_distances_are_seen)
 {
-  (void)state;
   for (int exponent = -20; exponent <= 20; exponent += 20) {
     struct scene scene = scene_of();
     patches[1] = square(ldexp(2, exponent), 2, 0);
@@ -47,17 +46,15 @@ static void all_distances_are_seen(void **state)
   }
 }
 
-static void threads_and_crop_change_nothing(void **state)
+TEST(threads_and_crop_change_nothing)
 {
-  (void)state;
   const struct scene scene = scene_of();
   expect_invariance(&scene);
 }
 
 /* Only one of the two solvers asks for them. */
-static void nor_do_they_with_warm_starts(void **state)
+TEST(nor_do_they_with_warm_starts)
 {
-  (void)state;
   struct scene scene = scene_of();
   struct method solvers[2] = {solver};
   const struct solver *aberth = solver_find("aberth", strlen("aberth"));
@@ -72,9 +69,8 @@ static void nor_do_they_with_warm_starts(void **state)
   expect_invariance(&scene);
 }
 
-static void crop_counts_only_its_rays(void **state)
+TEST(crop_counts_only_its_rays)
 {
-  (void)state;
   const struct scene scene = scene_of();
   struct render_options options = options_of("rgb");
   options.crop = (struct rectangle){10, 20, 9, 5};
@@ -87,9 +83,8 @@ static void crop_counts_only_its_rays(void **state)
   assert_true(stats.counts.roots_found >= stats.counts.roots_accepted);
 }
 
-static void channels_tell_of_the_hit(void **state)
+TEST(channels_tell_of_the_hit)
 {
-  (void)state;
   struct scene scene = scene_of();
   scene.patches = &patches[1];
   scene.patch_count = 1;
@@ -153,9 +148,8 @@ static size_t expect_measures(const struct scene *scene, double most_roots, doub
   return off;
 }
 
-static void channels_tell_of_the_solver(void **state)
+TEST(channels_tell_of_the_solver)
 {
-  (void)state;
   struct scene scene = scene_of();
   assert_int_equal(expect_measures(&scene, INFINITY, 0), 0); /* the default's answers are the certified ones */
   static const char *const names[] = {"newton", "laguerre", "aberth", "durand_kerner"};
@@ -175,9 +169,8 @@ static void channels_tell_of_the_solver(void **state)
 
 /* The status of a pixel is that of its answer: certain by default, and never without polish. Either way a hit
  * covers. */
-static void statuses_are_the_answers(void **state)
+TEST(statuses_are_the_answers)
 {
-  (void)state;
   const struct scene scene = scene_of();
   const struct render_options options = options_of("status,patch,coverage");
   for (int certain = 0; certain < 2; certain++) {
@@ -198,9 +191,8 @@ static void statuses_are_the_answers(void **state)
 }
 
 /* N x N samples are the pixels of a picture N times as large, averaged; data are those of the middle sample. */
-static void samples_are_a_finer_picture(void **state)
+TEST(samples_are_a_finer_picture)
 {
-  (void)state;
   const struct scene scene = scene_of();
   for (size_t n = 2; n <= 3; n++) {
     struct render_options options = options_of("rgb,depth,coverage"), fine = options;
@@ -229,9 +221,8 @@ static void samples_are_a_finer_picture(void **state)
   }
 }
 
-static void a_stopped_rendering_says_so(void **state)
+TEST(a_stopped_rendering_says_so)
 {
-  (void)state;
   const struct scene scene = scene_of();
   const struct render_options options = options_of("rgb");
   static float out[WIDTH * HEIGHT * 3];
@@ -266,9 +257,8 @@ static void listen(void *context, const struct render_progress *progress)
   if (heard->right) atomic_store(&heard->stop, 15);
 }
 
-static void progress_is_told(void **state)
+TEST(progress_is_told)
 {
-  (void)state;
   const struct scene scene = scene_of();
   struct render_options options = options_of("rgb");
   options.samples = 20;
@@ -283,16 +273,4 @@ static void progress_is_told(void **state)
   assert_int_equal(heard.total, WIDTH * HEIGHT);
   assert_true(heard.right);
   intersector_destroy(intersector);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(all_distances_are_seen),       cmocka_unit_test(threads_and_crop_change_nothing),
-    cmocka_unit_test(nor_do_they_with_warm_starts), cmocka_unit_test(crop_counts_only_its_rays),
-    cmocka_unit_test(channels_tell_of_the_hit),     cmocka_unit_test(channels_tell_of_the_solver),
-    cmocka_unit_test(statuses_are_the_answers),     cmocka_unit_test(progress_is_told),
-    cmocka_unit_test(samples_are_a_finer_picture),  cmocka_unit_test(a_stopped_rendering_says_so),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,9 +97,8 @@ static void quad_resultant(int m, int n, const quad a[16], const quad b[16], qua
 
 /* ---- */
 
-static void bezout_is_sylvester_up_to_sign(void **state)
+TEST(bezout_is_sylvester_up_to_sign)
 {
-  (void)state;
   struct random random = {SEED};
   for (int m = 1; m <= 3; m++) {
     for (int n = 1; n <= 3; n++) {
@@ -126,9 +125,8 @@ static void bezout_is_sylvester_up_to_sign(void **state)
 
 /* The values of r are the determinants of values. Tried at points, so that a wrong binomial in one place cannot hide
  * behind the same one in another. */
-static void coefficients_are_those_of_the_determinant_of_values(void **state)
+TEST(coefficients_are_those_of_the_determinant_of_values)
 {
-  (void)state;
   struct random random = {SEED + 1};
   for (int m = 1; m <= 3; m++) {
     for (int n = 1; n <= 3; n++) {
@@ -180,9 +178,8 @@ enum { KINDS = 8 };
 /* resultant_error.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and its error at most
  * that times the roundings and the nets' own error. Both must hold. The largest ratios are printed: a bound a million
  * times too large would be true and useless. */
-static void the_bound_of_r_holds(void **state)
+TEST(the_bound_of_r_holds)
 {
-  (void)state;
   struct random random = {SEED + 2};
   for (int n = 1; n <= 3; n++) {
     double size_ratio = 0, error_ratio = 0, blurred_ratio = 0;
@@ -240,9 +237,8 @@ static void plant(int m, int n, double u, double v, double net[16])
 }
 
 /* Nets with a common root (u,v): r(u) is 0 within the bound, and the null vector at u gives v. */
-static void a_common_root_is_a_root_of_r(void **state)
+TEST(a_common_root_is_a_root_of_r)
 {
-  (void)state;
   struct random random = {SEED + 3};
   for (int n = 1; n <= 3; n++) {
     double worst_r = 0, worst_v = 0, typical_v = 0;
@@ -291,9 +287,8 @@ static void a_common_root_is_a_root_of_r(void **state)
 }
 
 /* The null vector also gives roots outside [0,1], and is accurate for exact data. */
-static void null_vectors_of_known_roots(void **state)
+TEST(null_vectors_of_known_roots)
 {
-  (void)state;
   /* (v - 1/4) times two unlike polynomials, n = 1, 2, 3, in Bernstein form. */
   static const double v0[] = {0.25, -0.5, 1.5, 0, 1};
   for (size_t r = 0; r < sizeof v0 / sizeof *v0; r++) {
@@ -314,9 +309,8 @@ static void null_vectors_of_known_roots(void **state)
   }
 }
 
-static void lanes_equal_doubles(void **state)
+TEST(lanes_equal_doubles)
 {
-  (void)state;
   struct random random = {SEED + 4};
   for (int m = 1; m <= 3; m++) {
     for (int n = 1; n <= 3; n++) {
@@ -346,13 +340,5 @@ static void lanes_equal_doubles(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(bezout_is_sylvester_up_to_sign),
-    cmocka_unit_test(coefficients_are_those_of_the_determinant_of_values),
-    cmocka_unit_test(the_bound_of_r_holds),
-    cmocka_unit_test(a_common_root_is_a_root_of_r),
-    cmocka_unit_test(null_vectors_of_known_roots),
-    cmocka_unit_test(lanes_equal_doubles),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

@@ -39,9 +39,8 @@ static bool found_all(int degree, enum basis basis, const double c[], const doub
   return all;
 }
 
-static void table(void **state)
+TEST(table)
 {
-  (void)state;
   assert_string_equal(solver_at(0)->name, "bernstein");
   assert_null(solver_at(solver_count()));
   for (size_t i = 0; i < solver_count(); i++) {
@@ -55,9 +54,8 @@ static void table(void **state)
   assert_non_null(solver_find("durand_kerner", 13));
 }
 
-static void hopeless_input(void **state)
+TEST(hopeless_input)
 {
-  (void)state;
   const double nan_c[] = {1.0, NAN, 1.0}, infinite[] = {1.0, 1.0, INFINITY}, zero[] = {0.0, 0.0, 0.0};
   const double small[] = {1e-12, -1e-12, 1e-12}, large_error[] = {1e-11, 1e-11, 1e-11}, constant[] = {2.0, 0.0, 0.0};
   const double good[] = {1.0, 2.0, 3.0}, bad_error[] = {0.0, NAN, 0.0};
@@ -81,9 +79,8 @@ static void hopeless_input(void **state)
 }
 
 /* u^2 (1-u)^3 (u - 1/4) exactly: zero coefficients at both ends are roots of radius 0. */
-static void exact_ends(void **state)
+TEST(exact_ends)
 {
-  (void)state;
   const double c[] = {0.0, 0.0, -1.0, 3.0, 0.0, 0.0, 0.0}; /* u^2 (1-u)^3 (3 u - (1-u)) */
   for (size_t i = 0; i < solver_count(); i++) {
     const struct root_set roots = solve(solver_at(i)->name, 6, BASIS_BERNSTEIN, c, NULL);
@@ -100,9 +97,8 @@ static void exact_ends(void **state)
 }
 
 /* The same polynomial, written with a higher degree in Bernstein form, has roots at infinity. They are not listed. */
-static void raised_degree(void **state)
+TEST(raised_degree)
 {
-  (void)state;
   const double power[] = {0.1875, -1.0, 1.0, 0.0, 0.0, 0.0, 0.0}; /* (u - 1/4) (u - 3/4) */
   const struct polynomial p = {6, BASIS_POWER, power, NULL};
   double c[7], error[7];
@@ -118,9 +114,8 @@ static void raised_degree(void **state)
 
 /* A root at u = 1, where u/(1-u) becomes infinite, is known as well as any other, although the change of basis leaves
  * the last coefficient uncertain. */
-static void roots_at_one(void **state)
+TEST(roots_at_one)
 {
-  (void)state;
   const double power[][4] = {{-1.0, 1.0},         {2.0, -3.0, 1.0}, {1.0, -2.0, 1.0},
                              {-0.25, 1.25, -1.0}, {0.3, -0.4, 0.1}, {-1.0, 1.0, -1.0, 1.0}};
   const int degrees[] = {1, 2, 2, 2, 2, 3};
@@ -139,9 +134,8 @@ static void roots_at_one(void **state)
 
 /* Coefficients far smaller than their neighbours mean roots near 0 and near infinity. A solver of [0,1] returns those
  * that lie there, and no others. */
-static void extremes_beside_the_interval(void **state)
+TEST(extremes_beside_the_interval)
 {
-  (void)state;
   const double outside[][3] = {{0.0, 0x1p-500, 0x1p532},       /* u (u + 2^-1032) */
                                {0x1p-70, 0x1p-500, 0x1p-1074}, /* roots next to -2^430 and -2^574 */
                                {1.0, 0x1p-600, 0x1p-1000},     /* a pair of 2^500 */
@@ -163,9 +157,8 @@ static void extremes_beside_the_interval(void **state)
 }
 
 /* A root of [0,1] next to the end of an interval where a coefficient's sign is unknown. */
-static void roots_next_to_open_ends(void **state)
+TEST(roots_next_to_open_ends)
 {
-  (void)state;
   /* c[0] may also be -5e-12 */
   const double end[] = {1e-12, 1.0, 1.0}, end_error[] = {1e-11, 0.0, 0.0};
   assert_true(found_all(2, BASIS_BERNSTEIN, end, end_error, 5e-12));
@@ -180,9 +173,8 @@ static void roots_next_to_open_ends(void **state)
 }
 
 /* Random real roots and pairs: every solver finds every real root in [0,1], and all solvers agree. */
-static void random_roots(void **state)
+TEST(random_roots)
 {
-  (void)state;
   enum { TRIALS = 400 };
   struct random random = {21};
   for (int trial = 0; trial < TRIALS; trial++) {
@@ -223,9 +215,8 @@ static void random_roots(void **state)
 }
 
 /* `start previous` along a family whose two real roots meet, become a complex pair, and return. */
-static void warm_start(void **state)
+TEST(warm_start)
 {
-  (void)state;
   for (size_t s = 0; s < solver_count(); s++) {
     struct solver_options options;
     solver_options_default(solver_at(s), &options);
@@ -286,9 +277,8 @@ static double largest_radius(int degree, const double c[], double at, enum root_
 }
 
 /* A true radius is useless if it is large. */
-static void radii_are_small(void **state)
+TEST(radii_are_small)
 {
-  (void)state;
   const double c[] = {-0.5, 1.75, -0.75, -2.0, 1.0}; /* -1, 1/2 twice, 2 */
   assert_true(largest_radius(4, c, -1.0, ROOT_CONVERGED) < 1e-12);
   assert_true(largest_radius(4, c, 2.0, ROOT_CONVERGED) < 1e-12);
@@ -298,9 +288,8 @@ static void radii_are_small(void **state)
 /* A polynomial that is a power has only one root. Doubles know (x - 1)^8 to 0.02 and (x - 1)^20 to 0.4; the discs of
  * their clusters are not much larger. The complex roots of a real polynomial are printed as conjugate pairs, in a
  * cluster or not. */
-static void clusters_have_discs_and_pairs(void **state)
+TEST(clusters_have_discs_and_pairs)
 {
-  (void)state;
   static const struct {
     int power;
     double largest;
@@ -335,9 +324,8 @@ static void clusters_have_discs_and_pairs(void **state)
 
 /* Measured in units of 2^size, the unknown has the same roots, in those units, with the same statuses, as long as the
  * coefficients are doubles. */
-static void sizes(void **state)
+TEST(sizes)
 {
-  (void)state;
   const double c[][5] = {{-1.0, 0.0, 0.0, 0.0, 1.0}, {3.0, -2.0, 0.5, 7.0, -1.0}, {0.25, 0.5, 8.0, -0.125, 1.0}};
   for (size_t i = 0; i < solver_count(); i++) {
     if (solver_at(i)->real_only) continue; /* [0,1] is no interval of theirs in other units */
@@ -360,9 +348,8 @@ static void sizes(void **state)
 }
 
 /* A root beyond the range of doubles is missing, and does not disturb the others. */
-static void beyond_doubles(void **state)
+TEST(beyond_doubles)
 {
-  (void)state;
   const double c[] = {-0x1p-100, 0.0, 0x1p900, 0x1p-1070}; /* next to -2^-500, 2^-500 and -2^1970 */
   for (size_t i = 0; i < solver_count(); i++) {
     if (solver_at(i)->real_only) continue;
@@ -380,9 +367,8 @@ static void beyond_doubles(void **state)
 
 /* If roots are far apart, the squares of values next to the small ones underflow; these values must not be taken for
  * zeros. */
-static void small_beside_large(void **state)
+TEST(small_beside_large)
 {
-  (void)state;
   const double s = 0x1p-430, root[] = {s, 2.0 * s, 1.0, -3.0, 1.0 / s};
   /* x times the polynomial of the four small roots */
   const double q[] = {0.0, -6.0 * s * s, 9.0 * s, -3.0, 2.0, 1.0, 0.0};
@@ -403,9 +389,8 @@ static void small_beside_large(void **state)
 }
 
 /* 2^-354 is the root of x^3 - 2^-1062. Just beside it underflow still rounds the cube to 2^-1062. */
-static void underflow_is_in_the_radius(void **state)
+TEST(underflow_is_in_the_radius)
 {
-  (void)state;
   const double c[] = {-0x1p-1062, 0.0, 0.0, 1.0}, beside = 0x1p-370;
   struct evaluation p;
   evaluation_prepare(3, BASIS_POWER, c, NULL, &p);
@@ -415,9 +400,8 @@ static void underflow_is_in_the_radius(void **state)
 }
 
 /* Methods that divide by differences of their values are never given equal ones. */
-static void equal_warm_starts_are_parted(void **state)
+TEST(equal_warm_starts_are_parted)
 {
-  (void)state;
   const struct root_problem problem = {.degree = 4, .basis = BASIS_POWER, .c = {1, 2, 3, 4, 5}};
   const struct solver_warm warm = {4, {0.5, 0.5, 0.5, -3}, {0, 0, 0, 1}};
   double re[4], im[4];
@@ -440,9 +424,8 @@ static int steps(const struct polynomial *p, const struct solver_options *option
 
 /* `start previous` begins at the previous roots, in whatever unit roots are sought, and stores the new ones. `start
  * cold` ignores them. */
-static void warm_start_is_where_roots_were(void **state)
+TEST(warm_start_is_where_roots_were)
 {
-  (void)state;
   const double plain[] = {-20.0, 22.0, 2.0, -5.0, 1.0}; /* 1, -2, 3 + i, 3 - i */
   for (size_t s = 0; s < solver_count(); s++) {
     if (solver_at(s)->real_only) continue; /* needs no start */
@@ -472,9 +455,8 @@ static void warm_start_is_where_roots_were(void **state)
 }
 
 /* 1, 2 and 6 have the centroid 3. About that Cauchy's equation is r^3 = 7 r + 6. */
-static void aberths_circle(void **state)
+TEST(aberths_circle)
 {
-  (void)state;
   const struct root_problem problem = {.degree = 3, .basis = BASIS_POWER, .c = {-12, 20, -9, 1}};
   double re[3], im[3];
   start_values(&problem, RADII_CIRCLE, NULL, 3, re, im);
@@ -485,9 +467,8 @@ static void aberths_circle(void **state)
 }
 
 /* Whatever the limit of iterations, there is an answer, and its radii hold. */
-static void limits(void **state)
+TEST(limits)
 {
-  (void)state;
   const double c[] = {-0.375, 1.75, -2.375, 1.0}; /* 0.375, 1, 1 */
   for (size_t s = 0; s < solver_count(); s++) {
     struct solver_options options;
@@ -505,9 +486,8 @@ static void limits(void **state)
 }
 
 /* Both divisions return the other factor of an exact product. */
-static void division(void **state)
+TEST(division)
 {
-  (void)state;
   for (int how = 0; how < 2; how++) {
     double linear[] = {-6.0, 11.0, -6.0, 1.0}; /* 1, 2, 3 */
     deflation_divide_linear((enum deflation)how, 3, linear, 2.0);
@@ -516,31 +496,4 @@ static void division(void **state)
     deflation_divide_quadratic((enum deflation)how, 5, quadratic, 2.0, 5.0);
     assert_true(quadratic[0] == 2.0 && quadratic[1] == -1.0 && quadratic[2] == -2.0 && quadratic[3] == 1.0);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(table),
-    cmocka_unit_test(hopeless_input),
-    cmocka_unit_test(exact_ends),
-    cmocka_unit_test(raised_degree),
-    cmocka_unit_test(random_roots),
-    cmocka_unit_test(warm_start),
-    cmocka_unit_test(warm_start_is_where_roots_were),
-    cmocka_unit_test(equal_warm_starts_are_parted),
-    cmocka_unit_test(aberths_circle),
-    cmocka_unit_test(limits),
-    cmocka_unit_test(division),
-    cmocka_unit_test(radii_are_small),
-    cmocka_unit_test(clusters_have_discs_and_pairs),
-    cmocka_unit_test(sizes),
-    cmocka_unit_test(roots_at_one),
-    cmocka_unit_test(extremes_beside_the_interval),
-    cmocka_unit_test(roots_next_to_open_ends),
-    cmocka_unit_test(beyond_doubles),
-    cmocka_unit_test(small_beside_large),
-    cmocka_unit_test(underflow_is_in_the_radius),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,9 +111,8 @@ static int split_of_apart(height *z, size_t count, const double apart[2])
 
 static int split_of(height *z, size_t count) { return split_of_apart(z, count, (double[2]){2, 0}); }
 
-static void patches_are_cut_as_far_as_they_bend(void **state)
+TEST(patches_are_cut_as_far_as_they_bend)
 {
-  (void)state;
   assert_int_equal(split_of(flat, 1), 1);
   const int few = split_of(bowl, 1);
   assert_true(few > 1 && few < 16);
@@ -122,9 +121,8 @@ static void patches_are_cut_as_far_as_they_bend(void **state)
 }
 
 /* Leaves cost memory: at most half a million are made. */
-static void many_patches_are_cut_less(void **state)
+TEST(many_patches_are_cut_less)
 {
-  (void)state;
   enum { MANY = 20000 };
   assert_int_equal(split_of(NULL, MANY), 4);
   assert_int_equal(split_of(NULL, 2 * MANY), 2);
@@ -132,9 +130,8 @@ static void many_patches_are_cut_less(void **state)
 
 /* Patches side by side are small in any picture. Of patches in a stack no more leaves are seen than of one patch,
  * unless they are so near that their leaves lie in one another's boxes. */
-static void patches_side_by_side_are_cut_less(void **state)
+TEST(patches_side_by_side_are_cut_less)
 {
-  (void)state;
   enum { MANY = 3000 };
   const int one = split_of(cup, 1);
   print_message("%d; %d, %d\n", one, split_of(cup, MANY), split_of_apart(cup, MANY, (double[2]){0, 0.1}));
@@ -148,9 +145,8 @@ static void patches_side_by_side_are_cut_less(void **state)
 
 /* Sheets in a stack overlap one another's boxes. They are cut finer along the parameter that bends, as far as the
  * number of leaves allows. */
-static void sheets_in_a_stack_are_cut_finer(void **state)
+TEST(sheets_in_a_stack_are_cut_finer)
 {
-  (void)state;
   enum { SHEETS = 100, MANY = 20000 };
   int one[2], split[2], middle[2];
   cut_of(page, 1, 1, (double[2]){0, 0}, one, middle);
@@ -166,9 +162,8 @@ static void sheets_in_a_stack_are_cut_finer(void **state)
 }
 
 /* A patch that bends across its long side is cut along it, however long it is; a flat one is not. */
-static void rods_are_cut_across(void **state)
+TEST(rods_are_cut_across)
 {
-  (void)state;
   static const double lengths[] = {6, 15, 30, 1000, 1e5};
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
     int split[2], middle[2];
@@ -183,9 +178,8 @@ static void rods_are_cut_across(void **state)
 }
 
 /* A ribbon that bends along its length is cut along it only, and as far however long it is. */
-static void ribbons_are_cut_along(void **state)
+TEST(ribbons_are_cut_along)
 {
-  (void)state;
   static const double lengths[] = {1e3, 1e5, 1e7, 1e9};
   int first[2];
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
@@ -201,9 +195,8 @@ static void ribbons_are_cut_along(void **state)
 
 /* The boxes of a long patch aslant to the axes are mostly air. So it is cut along its long side, until its leaves are
  * about as long as wide, or are 64; but not into more than a quarter of a million leaves in all. */
-static void long_patches_aslant_are_cut_along(void **state)
+TEST(long_patches_aslant_are_cut_along)
 {
-  (void)state;
   enum { MANY = 20000 };
   static const double lengths[] = {6, 15, 30, 1000, 1e5};
   height *const heights[] = {flat, gutter};
@@ -223,9 +216,8 @@ static void long_patches_aslant_are_cut_along(void **state)
 }
 
 /* A cone's side is cut on the way to its pole, although it is straight along it. */
-static void cones_are_cut_before_poles(void **state)
+TEST(cones_are_cut_before_poles)
 {
-  (void)state;
   static const double widths[] = {0.5, 0.2, 0.1, 0.02};
   for (size_t k = 0; k < sizeof widths / sizeof widths[0]; k++) {
     int split[2], middle[2];
@@ -235,17 +227,4 @@ static void cones_are_cut_before_poles(void **state)
     assert_in_range(split[0], 4, 16);
   }
   pointed = 0;
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_cut_as_far_as_they_bend),
-                                     cmocka_unit_test(many_patches_are_cut_less),
-                                     cmocka_unit_test(patches_side_by_side_are_cut_less),
-                                     cmocka_unit_test(sheets_in_a_stack_are_cut_finer),
-                                     cmocka_unit_test(rods_are_cut_across),
-                                     cmocka_unit_test(ribbons_are_cut_along),
-                                     cmocka_unit_test(long_patches_aslant_are_cut_along),
-                                     cmocka_unit_test(cones_are_cut_before_poles)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

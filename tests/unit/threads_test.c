@@ -24,9 +24,8 @@ static enum status work_once(void *context, size_t worker)
   return worker == work->failing ? work->with : STATUS_OK;
 }
 
-static void a_failure_is_not_lost(void **state)
+TEST(a_failure_is_not_lost)
 {
-  (void)state;
   for (size_t failing = 0; failing <= WORKERS; failing++) {
     struct work work = {.failing = failing, .with = STATUS_LIMIT};
     const struct team team = threads_team(WORKERS);
@@ -47,9 +46,8 @@ int __wrap_pthread_create(pthread_t *id, const pthread_attr_t *attributes, void 
 }
 
 /* A team that lacks a thread fails, and the missing members' work is not done. */
-static void a_missing_thread_is_told(void **state)
+TEST(a_missing_thread_is_told)
 {
-  (void)state;
   struct work work = {.failing = WORKERS};
   startable = WORKERS - 2;
   const enum status status = threads_team(WORKERS).run(WORKERS, work_once, &work);
@@ -59,9 +57,8 @@ static void a_missing_thread_is_told(void **state)
 }
 
 /* Workers are numbered from the given first one, and the first failure is returned. */
-static void they_are_joined(void **state)
+TEST(they_are_joined)
 {
-  (void)state;
   struct thread threads[WORKERS];
   struct work work = {.failing = 2, .with = STATUS_INTERRUPTED};
   assert_int_equal(threads_start(threads, 1, WORKERS - 1, work_once, &work), WORKERS - 1);
@@ -78,9 +75,8 @@ static enum status fill_stack(void *context, size_t worker)
   return worker == 0 ? STATUS_FILE : STATUS_OK;
 }
 
-static void there_is_room_for_deep_work(void **state)
+TEST(there_is_room_for_deep_work)
 {
-  (void)state;
   struct rlimit limit, little;
   sigset_t before, after;
   char done = 0;
@@ -94,12 +90,4 @@ static void there_is_room_for_deep_work(void **state)
   assert_int_equal(pthread_sigmask(SIG_SETMASK, NULL, &after), 0);
   for (int number = 1; number < 32; number++)
     assert_int_equal(sigismember(&after, number), sigismember(&before, number));
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_failure_is_not_lost),
-                                     cmocka_unit_test(a_missing_thread_is_told), cmocka_unit_test(they_are_joined),
-                                     cmocka_unit_test(there_is_room_for_deep_work)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,9 +20,8 @@ static void count_pixels(const struct rectangle *crop, const struct tile_list *l
   }
 }
 
-static void pieces_have_each_pixel_once(void **state)
+TEST(pieces_have_each_pixel_once)
 {
-  (void)state;
   static const struct rectangle crops[] = {{0, 0, 1, 1}, {0, 0, 320, 200}, {31, 33, 2, 70}, {65, 1, 517, 40}};
   static const size_t pieces[] = {1, 2, 3, 7, 64, 1000};
   for (size_t c = 0; c < sizeof crops / sizeof *crops; c++) {
@@ -48,9 +47,8 @@ static void pieces_have_each_pixel_once(void **state)
 }
 
 /* Tiles that follow each other are neighbours if the picture is a square of 2^n tiles. */
-static void the_order_is_a_walk(void **state)
+TEST(the_order_is_a_walk)
 {
-  (void)state;
   const struct rectangle crop = {0, 0, 32 * TILE_SIZE, 32 * TILE_SIZE};
   struct tile_list list;
   assert_int_equal(tile_list_create(&crop, 1, 1, &list), STATUS_OK);
@@ -63,9 +61,8 @@ static void the_order_is_a_walk(void **state)
 }
 
 /* Kept parts number their tiles in this order, so that it must not change; a crop has its part of it. */
-static void the_order_stays(void **state)
+TEST(the_order_stays)
 {
-  (void)state;
   static const size_t column[16] = {0, 1, 1, 0, 0, 0, 1, 1, 2, 2, 3, 3, 3, 2, 2, 3};
   static const size_t row[16] = {0, 0, 1, 1, 2, 3, 3, 2, 2, 3, 3, 2, 1, 1, 0, 0};
   static const struct rectangle crops[] = {{0, 0, 128, 128}, {33, 31, 64, 97}, {0, 64, 1, 64}, {96, 0, 32, 128}};
@@ -90,9 +87,8 @@ static void the_order_stays(void **state)
 
 /* A picture expensive on its left half, in a disc, or towards its lower edge: no piece has 15 % more work than the
  * mean, for any N up to 30 of 60 x 40 tiles. If pieces were rows, one would have 27 % more. */
-static void pieces_are_equally_dear(void **state)
+TEST(pieces_are_equally_dear)
 {
-  (void)state;
   const struct rectangle crop = {0, 0, 60 * TILE_SIZE, 40 * TILE_SIZE};
   for (size_t n = 2; n <= 30; n++) {
     double most[3] = {0}, sum[3] = {0};
@@ -116,9 +112,8 @@ static void pieces_are_equally_dear(void **state)
   }
 }
 
-static void pixels_are_counted(void **state)
+TEST(pixels_are_counted)
 {
-  (void)state;
   const struct rectangle crop = {31, 33, 2, 70};
   struct tile_list list;
   assert_int_equal(tile_list_create(&crop, 1, 1, &list), STATUS_OK);
@@ -130,16 +125,4 @@ static void pixels_are_counted(void **state)
   }
   assert_true(tile_list_pixels(&list, false) == 140 && tile_list_pixels(&list, true) == done);
   tile_list_destroy(&list);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(pieces_have_each_pixel_once),
-    cmocka_unit_test(the_order_is_a_walk),
-    cmocka_unit_test(the_order_stays),
-    cmocka_unit_test(pieces_are_equally_dear),
-    cmocka_unit_test(pixels_are_counted),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

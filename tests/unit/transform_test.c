@@ -38,9 +38,8 @@ static double some_angle(struct random *random)
   }
 }
 
-static void sines_and_cosines_are_right_to_their_bound(void **state)
+TEST(sines_and_cosines_are_right_to_their_bound)
 {
-  (void)state;
   struct random random = {SEED};
   double worst = 0;
   for (int n = 0; n < CASES; n++) {
@@ -60,9 +59,8 @@ static void sines_and_cosines_are_right_to_their_bound(void **state)
   assert_true(worst > 0 && worst < MOST_ERROR);
 }
 
-static void quarters_are_exact(void **state)
+TEST(quarters_are_exact)
 {
-  (void)state;
   for (int quarters = -8; quarters <= 8; quarters++) {
     struct transform t;
     transform_rotation((double[]){90.0 * quarters, 0, 0}, &angles, &t);
@@ -72,9 +70,8 @@ static void quarters_are_exact(void **state)
 }
 
 /* Angles that are kept already, or kept a quarter turn more or less, change nothing. */
-static void whole_degrees_are_what_they_are_alone(void **state)
+TEST(whole_degrees_are_what_they_are_alone)
 {
-  (void)state;
   for (int degrees = -1000; degrees <= 1000; degrees++) {
     struct transform_angles none = {0};
     struct transform kept, alone;
@@ -97,9 +94,8 @@ static struct transform some(struct random *random)
   return t;
 }
 
-static void all_instruction_sets_round_alike(void **state)
+TEST(all_instruction_sets_round_alike)
 {
-  (void)state;
   struct random random = {SEED + 1};
   const struct transform_kernel *plain = &transform_kernel_baseline;
   for (int n = 0; n < CASES; n++) {
@@ -123,9 +119,8 @@ static void all_instruction_sets_round_alike(void **state)
 }
 
 /* A point is the double nearest to the result in quadruple precision, which is practically never a tie. */
-static void points_are_rounded_once(void **state)
+TEST(points_are_rounded_once)
 {
-  (void)state;
   struct random random = {SEED + 2};
   for (int n = 0; n < CASES; n++) {
     const struct transform t = some(&random);
@@ -142,9 +137,8 @@ static void points_are_rounded_once(void **state)
 }
 
 /* If the sum of two translations is no double, neither is lost: no point is moved by the rounded sum. */
-static void ways_are_added_exactly(void **state)
+TEST(ways_are_added_exactly)
 {
-  (void)state;
   struct transform one = transform_identity(), two = transform_identity();
   one.identity = two.identity = false;
   one.A[3][0].hi = 1, two.A[3][0].hi = 0x1p-53;
@@ -152,17 +146,4 @@ static void ways_are_added_exactly(void **state)
   double point[3] = {0x1p-53, 0, 0};
   transform_point(&both, point, point);
   assert_true(point[0] == 1 + 0x1p-52);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sines_and_cosines_are_right_to_their_bound),
-    cmocka_unit_test(quarters_are_exact),
-    cmocka_unit_test(whole_degrees_are_what_they_are_alone),
-    cmocka_unit_test(all_instruction_sets_round_alike),
-    cmocka_unit_test(points_are_rounded_once),
-    cmocka_unit_test(ways_are_added_exactly),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

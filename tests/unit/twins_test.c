@@ -17,9 +17,8 @@ static void random_net(struct random *random, net P)
 }
 
 /* Nets, followed by a twin of each. */
-static void every_twin_is_found(void **state)
+TEST(every_twin_is_found)
 {
-  (void)state;
   struct random random = {SEED};
   for (int trial = 0; trial < TRIALS; trial++) {
     net P[2 * NETS];
@@ -37,9 +36,8 @@ static void every_twin_is_found(void **state)
 }
 
 /* One different number, of a border or an inner point, makes no twin. */
-static void nearly_is_not_the_same(void **state)
+TEST(nearly_is_not_the_same)
 {
-  (void)state;
   struct random random = {SEED + 1};
   for (int n = 0; n < 48; n++) {
     net P[2];
@@ -57,6 +55,5 @@ static void nearly_is_not_the_same(void **state)
 int main(void)
 {
   print_message("seed %d\n", SEED);
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_twin_is_found), cmocka_unit_test(nearly_is_not_the_same)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }
