@@ -14,10 +14,13 @@
 %param {struct language *language}
 
 %code requires {
+#include "language/arrays.h"
 #include "language/camera.h"
+#include "language/functions.h"
 #include "language/objects.h"
 #include "language/settings.h"
 #include "language/solver_statement.h"
+#include "language/strings.h"
 }
 
 %code {
@@ -55,7 +58,7 @@ static void pscn_error(struct language *language, const char *message)
 %union {
   struct span place;
   int index;
-  struct value *value;
+  struct value *value, *list; /* a list: the last one first */
   struct texture *texture;
   struct node *node;
   struct declaration *declaration;
@@ -65,7 +68,8 @@ static void pscn_error(struct language *language, const char *message)
 
 %token END 0 "the end of the text"
 %token <place> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a string"
-%token <place> FOREIGN "a word of POV-Ray's" FOREIGN_SIGN "a sign of POV-Ray's" START_SCENE START_SOLVER
+%token <place> FOREIGN "a word of POV-Ray's" SHAPE "a shape" REFUSED "a function of POV-Ray's" IGNORED "a word without effect"
+%token <place> START_SCENE START_SOLVER START_CONDITION START_RANGE START_FOR START_INDICES START_STRING START_ARGUMENTS START_DIRECTIVE
 %token <place> VERSION "#version" DECLARE "#declare" LOCAL "#local" DEFAULT "#default"
 %token <place> GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level"
 %token <place> AMBIENT_LIGHT "ambient_light"
@@ -77,14 +81,16 @@ static void pscn_error(struct language *language, const char *message)
 %token <place> TEXTURE "texture" PIGMENT "pigment" FINISH "finish"
 %token <place> AMBIENT "ambient" DIFFUSE "diffuse" BRILLIANCE "brilliance" PHONG "phong" PHONG_SIZE "phong_size"
 %token <place> SPECULAR "specular" ROUGHNESS "roughness"
-%token <place> COLOR "color" RGB "rgb" X "x" Y "y" Z "z" RED "red" GREEN "green" BLUE "blue" PI "pi"
-%token <place> IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height" VERSION_WORD "version"
+%token <place> COLOR "color" RGB "rgb" X "x" Y "y" Z "z" RED "red" GREEN "green" BLUE "blue"
+%token COMPARISON "a comparison"
+%token <place> CONSTANT "a constant" FUNCTION "a function" DEFINED "defined" ARRAY "array"
 %token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use makes POV-Ray warn */
 %token <place> RGBF "rgbf" RGBFT "rgbft" SRGB "srgb" SRGBF "srgbf" SRGBFT "srgbft" FILTER "filter"
 %token <place> SOLVER "solver"
 
-%type <value> expression value colour spaced shade quantity four five
-%type <index> part
+%type <value> expression condition name string value colour spaced shade solid array quantity four five
+%type <list> list indices more_indices target arguments
+%type <index> part camera_vector
 %type <place> solver method modifier
 %type <texture> texture_block pigment_block finish_block part_block surface
 %type <node> object patch union copy
@@ -97,55 +103,115 @@ static void pscn_error(struct language *language, const char *message)
 
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
 %precedence ITEM
-%precedence <place> ','
-%precedence TEXTURE RED GREEN BLUE FILTER
+%precedence <place> ',' '{'
+%precedence RED GREEN BLUE FILTER
+%right '?' ':'
+%left '&' '|'
+%left <place> '<' '>' '=' COMPARISON
 %left <place> '+' '-'
 %left '*' '/'
 %precedence SIGN
+%precedence <place> '!'
 %precedence '.'
 
-%token <place> ';' '{' '}' '=' '(' ')' '<' '>'
+%token <place> ';' '}' '(' ')' '[' ']'
 
 %%
 
-input: START_SCENE statements | START_SOLVER solver;
+/* A text, or what stands behind a directive or the name of a macro. Of these, the token behind the last is not read. */
+input:
+    START_SCENE statements
+  | START_SOLVER solver
+  | START_CONDITION '(' condition ')'          { language->list = $3; YYACCEPT; }
+  | START_RANGE '(' expression ',' expression ')' { language->list = value_before(value_before(NULL, $5), $3); YYACCEPT; }
+  | START_FOR '(' WORD ',' list ')'
+    { language->list = value_before(value_reversed($5), value_of(language, VALUE_NONE, $3)); YYACCEPT; }
+  | START_INDICES expression ']' more_indices ')'
+    { language->list = value_before(value_reversed($4), $2); YYACCEPT; }
+  | START_DIRECTIVE directive                  { YYACCEPT; }
+  | START_STRING string                        { language->list = $2; YYACCEPT; }
+  | START_ARGUMENTS '(' arguments ')'          { language->list = value_reversed($3); YYACCEPT; }
+  ;
+
+string:
+    STRING                                     { $$ = value_of_string(language, $1); }
+  | WORD                                       { $$ = value_named(language, $1); }
+  | FUNCTION '(' list ')'                      { $$ = value_function(language, $3, $1, span_join($1, $4)); }
+  ;
+
+arguments:
+    %empty                                     { $$ = NULL; }
+  | arguments colour comma                     { $$ = value_before($1, $2); }
+  | arguments solid comma                      { $$ = value_before($1, $2); }
+  | arguments texture_block comma              { $$ = value_before($1, value_of_texture(language, $2)); }
+  ;
 
 statements: %empty | statements statement;
 statement:
-    default
-  | declaration
-  | GLOBAL_SETTINGS '{' global_items '}'
+    GLOBAL_SETTINGS '{' global_items '}'
   | CAMERA '{' { camera_begin(language, $1); } camera_items '}' { camera_end(language); }
   | LIGHT_SOURCE '{' { light_begin(language, $1); } light_items '}' { light_end(language); }
   | BACKGROUND '{' { background_begin(language, $1); } background_items '}' { background_end(language); }
   | object                                     { scene_add(language, $1); }
   | solver                                     { solver_misplaced(language, $1); }
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
-/* Not within a texture, where POV-Ray would begin again with the previous default. */
-default: DEFAULT '{' default_items '}';
+/* May stand between the items of every block. */
+foreign:
+    IGNORED                                    { tokens_pass(language); }
+  | FOREIGN                                    { language_lacks_word(language, $1); tokens_pass(language); }
+  ;
+
+directive:
+    VERSION value semicolon                    { language_version(language, $2); }
+  | DEFAULT '{' default_items '}'
+  | declared_value semicolon
+  | declare solid                              { declare_value(language, $1, $2); value_last(language, $2); } semicolon
+  | declare texture_block                      { declare_texture(language, $1, $2); } layers semicolon
+    { language->layered = NULL; }
+  ;
 default_items: %empty | default_items default_item;
 default_item:
     surface                                    { texture_set_default(language, $1); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
-
-declaration:
-    VERSION value semicolon                    { language_version(language, $2); }
-  | declared_value semicolon
-  | declare object                             { declare_object(language, $1, $2); } semicolon
-  | declare texture_block                      { declare_texture(language, $1, $2); } layers semicolon
-    { language->layered = NULL; }
-  | declare part_block                         { declare_texture(language, $1, $2); } semicolon
-  ;
 declared_value: declare shade ';'              { declare_value(language, $1, $2); };
-layers: %empty | layers TEXTURE '{' { layer_begin(language, $2); } texture_items '}' { layer_end(language, $6); };
-declare: DECLARE old WORD '='                  { $$ = declare_begin(language, $3, NULL); }
-  | LOCAL old WORD '='                         { $$ = declare_begin(language, $3, &$1); };
+layers: %empty | layers TEXTURE { layer_begin(language, $2); } '{' texture_items '}' { layer_end(language, $6); };
+/* What can be declared besides a value. */
+solid:
+    object                                     { $$ = value_of_object(language, $1); }
+  | part_block                                 { $$ = value_of_texture(language, $1); }
+  | array
+  ;
+declare: DECLARE old target '='                { $$ = declare_begin(language, value_reversed($3), NULL); }
+  | LOCAL old target '='                       { $$ = declare_begin(language, value_reversed($3), &$1); };
+target: WORD                                   { $$ = value_before(NULL, value_of(language, VALUE_NONE, $1)); }
+  | target '[' expression ']'                  { $$ = value_before($1, $3); };
 old: %empty | DEPRECATED STRING | DEPRECATED ONCE STRING;
 semicolon: %empty %prec ITEM | ';';
+
+/* ---- arrays ---- */
+
+array:
+    ARRAY indices %prec ITEM                   { array_begin(language, value_reversed($2), $1); $$ = array_end(language); }
+  | ARRAY indices '{' { array_begin(language, value_reversed($2), $1); } elements '}'
+    { array_row_end(language, $6); $$ = array_end(language); }
+  ;
+indices: '[' expression ']'                    { $$ = value_before(NULL, $2); }
+  | indices '[' expression ']'                 { $$ = value_before($1, $3); };
+more_indices: %empty                           { $$ = NULL; }
+  | more_indices '[' expression ']'            { $$ = value_before($1, $3); };
+elements: %empty | elements element comma;
+element:
+    shade                                      { array_given(language, $1); }
+  | solid                                      { array_given(language, $1); value_last(language, $1); }
+  | texture_block                              { array_given(language, value_last(language, value_of_texture(language, $1))); }
+  | '{' { array_row(language, $1); } elements '}' { array_row_end(language, $4); }
+  | error                                      { RECOVER(); }
+  ;
 
 /* ---- values ---- */
 
@@ -156,15 +222,16 @@ shade: colour %prec ITEM                       { $$ = value_last(language, $1); 
 expression:
     NUMBER                                     { $$ = value_of_number(language, *language->number, $1); }
   | POINT                                      { $$ = value_of_vector(language, language->number, $1); }
-  | WORD                                       { $$ = value_named(language, $1); }
+  | STRING                                     { $$ = value_of_string(language, $1); }
+  | name
+  | name indices %prec ITEM                    { $$ = value_element(language, $1, $2, $1->place); }
   | X                                          { $$ = value_axis(language, 0, $1); }
   | Y                                          { $$ = value_axis(language, 1, $1); }
   | Z                                          { $$ = value_axis(language, 2, $1); }
-  | PI                                         { $$ = value_of_number(language, 3.14159265358979323846, $1); }
-  | IMAGE_WIDTH                                { $$ = value_of_number(language, language->width, $1); }
-  | IMAGE_HEIGHT                               { $$ = value_of_number(language, language->height, $1); }
-  | VERSION_WORD                               { $$ = value_of_number(language, language->settings->version, $1); }
-  | '(' expression ')'                         { $$ = value_alone(language, $2, span_join($1, $3)); }
+  | CONSTANT                                   { $$ = value_constant(language, $1); }
+  | FUNCTION '(' list ')'                      { $$ = value_function(language, $3, $1, span_join($1, $4)); }
+  | DEFINED '(' WORD ')'                       { $$ = value_defined(language, $3, span_join($1, $4)); }
+  | '(' condition ')'                          { $$ = value_alone(language, $2, span_join($1, $3)); }
   | '<' expression comma expression comma expression comma '>'
                                                { $$ = value_of_parts(language, $2, $4, $6, span_join($1, $8)); }
   | '<' expression comma expression comma '>'  { $$ = value_flat(language, $2, $4, span_join($1, $6)); }
@@ -174,6 +241,7 @@ expression:
   | expression '/' expression                  { $$ = value_binary(language, '/', $1, $3); }
   | '-' expression %prec SIGN                  { $$ = value_negative(language, $2, span_join($1, $2->place)); }
   | '+' expression %prec SIGN                  { $$ = value_positive(language, $2, span_join($1, $2->place)); }
+  | '!' expression                             { $$ = value_not(language, $2, span_join($1, $2->place)); }
   | expression '.' X                           { $$ = value_component(language, $1, 0, $3); }
   | expression '.' Y                           { $$ = value_component(language, $1, 1, $3); }
   | expression '.' Z                           { $$ = value_component(language, $1, 2, $3); }
@@ -182,7 +250,23 @@ expression:
   | expression '.' BLUE                        { $$ = value_component(language, $1, 2, $3); }
   ;
 
+name: WORD                                     { $$ = value_named(language, $1); };
+list: expression                               { $$ = value_before(NULL, $1); }
+  | list ',' expression                        { $$ = value_before($1, $3); };
 comma: %empty %prec ITEM | ',';
+
+/* In parentheses only. */
+condition:
+    expression
+  | condition '<' condition                    { $$ = value_compared(language, '<', $1, $3); }
+  | condition '>' condition                    { $$ = value_compared(language, '>', $1, $3); }
+  | condition '=' condition                    { $$ = value_compared(language, '=', $1, $3); }
+  | condition COMPARISON condition             { $$ = value_compared(language, comparison_at(language, $2), $1, $3); }
+  | condition '&' condition                    { $$ = value_compared(language, '&', $1, $3); }
+  | condition '|' condition                    { $$ = value_compared(language, '|', $1, $3); }
+  | condition '?' { choice_begin(language, $1); } condition ':' { choice_else(language, $1); } condition
+                                               { $$ = choice_end(language, $1, $4, $7); }
+  ;
 
 /* A plain vector or number is a colour wherever POV-Ray takes it for one. */
 colour:
@@ -224,23 +308,27 @@ global_item:
   | MAX_TRACE_LEVEL value                      { global_trace_level(language, $2); }
   | AMBIENT_LIGHT shade                        { global_ambient(language, $2); }
   | solver                                     { global_solver(language); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
 camera_items: %empty | camera_items camera_item;
 camera_item:
     PERSPECTIVE                                { camera_perspective(language, $1); }
-  | LOCATION value                             { camera_vector(language, CAMERA_LOCATION, $2); }
-  | DIRECTION value                            { camera_vector(language, CAMERA_DIRECTION, $2); }
-  | RIGHT value                                { camera_vector(language, CAMERA_RIGHT, $2); }
-  | UP value                                   { camera_vector(language, CAMERA_UP, $2); }
-  | SKY value                                  { camera_vector(language, CAMERA_SKY, $2); }
-  | LOOK_AT value                              { camera_vector(language, CAMERA_LOOK_AT, $2); }
-  | ANGLE value                                { camera_angle(language, $2); }
+  | camera_vector { camera_item(language); } value { camera_vector(language, $1, $3); }
+  | ANGLE { camera_item(language); } value     { camera_angle(language, $3); }
   | transform                                  { camera_transform(language, $1); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
+  ;
+
+camera_vector:
+    LOCATION                                   { $$ = CAMERA_LOCATION; }
+  | DIRECTION                                  { $$ = CAMERA_DIRECTION; }
+  | RIGHT                                      { $$ = CAMERA_RIGHT; }
+  | UP                                         { $$ = CAMERA_UP; }
+  | SKY                                        { $$ = CAMERA_SKY; }
+  | LOOK_AT                                    { $$ = CAMERA_LOOK_AT; }
   ;
 
 /* The position, then the colour, then the rest. */
@@ -250,20 +338,22 @@ light_item:
   | ','                                        { light_comma(language, $1); }
   | SHADOWLESS                                 { light_shadowless(language, $1); }
   | transform                                  { light_transform(language, $1); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
 background_items: %empty | background_items background_item;
 background_item:
     shade                                      { background_value(language, $1); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
 /* ---- objects ---- */
 
-object: patch | union | copy;
+object: patch | union | copy
+  | SHAPE                                      { $$ = shape_pass(language, $1); }
+  ;
 
 /* Settings, then 16 points, then modifiers. */
 patch: BICUBIC_PATCH '{' { patch_begin(language, $1); } patch_items '}'
@@ -280,8 +370,7 @@ patch_item:
   | ','                                        { patch_comma(language, $1); }
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
-  | default
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
@@ -292,8 +381,7 @@ union_item:
     object                                     { union_add(language, $1); }
   | modifier                                   { union_modified(language); }
   | solver                                     { solver_misplaced(language, $1); }
-  | default
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
@@ -301,12 +389,12 @@ union_item:
 copy: OBJECT '{' { copy_begin(language, $1); } copy_items '}' { copy_end(language); $$ = node_end(language, $5); };
 copy_items: %empty | copy_items copy_item;
 copy_item:
-    WORD                                       { copy_named(language, $1); }
+    name                                       { copy_named(language, value_last(language, $1)); }
+  | name indices { copy_named(language, value_last(language, value_element(language, $1, $2, $1->place))); }
   | object                                     { copy_object(language, $1); }
   | modifier                                   { copy_modified(language, $1); }
   | solver                                     { solver_misplaced(language, $1); }
-  | default
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
@@ -337,11 +425,12 @@ texture_block: TEXTURE '{' { texture_begin(language, $1, TEXTURE_ALL); } texture
     { $$ = texture_end(language, $5); };
 texture_items: %empty | texture_items texture_item;
 texture_item:
-    WORD                                       { texture_named(language, $1); }
+    name                                       { texture_named(language, value_last(language, $1)); }
+  | name indices { texture_named(language, value_last(language, value_element(language, $1, $2, $1->place))); }
   | pigment_block                              { texture_merge(language, $1); }
   | finish_block                               { texture_merge(language, $1); }
   | transform                                  { texture_moved(language); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
@@ -351,7 +440,7 @@ pigment_items: %empty | pigment_items pigment_item;
 pigment_item:
     shade                                      { pigment_value(language, $1); }
   | transform                                  { texture_moved(language); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
@@ -359,7 +448,8 @@ finish_block: FINISH '{' { texture_begin(language, $1, TEXTURE_FINISH); } finish
     { $$ = texture_end(language, $5); };
 finish_items: %empty | finish_items finish_item;
 finish_item:
-    WORD                                       { texture_named(language, $1); }
+    name                                       { texture_named(language, value_last(language, $1)); }
+  | name indices { texture_named(language, value_last(language, value_element(language, $1, $2, $1->place))); }
   | AMBIENT shade                              { finish_ambient(language, $2); }
   | DIFFUSE value                              { finish_number(language, PART_DIFFUSE, $2); }
   | BRILLIANCE value                           { finish_number(language, PART_BRILLIANCE, $2); }
@@ -367,7 +457,7 @@ finish_item:
   | PHONG_SIZE value                           { finish_number(language, PART_PHONG_SIZE, $2); }
   | SPECULAR value                             { finish_number(language, PART_SPECULAR, $2); }
   | ROUGHNESS value                            { finish_number(language, PART_ROUGHNESS, $2); }
-  | declaration
+  | foreign
   | error                                      { RECOVER(); }
   ;
 
@@ -385,7 +475,7 @@ solver_item:
 /* A name may be a keyword of the item. So a declared name that is part of an expression must be in parentheses. */
 quantity:
     NUMBER                                     { $$ = value_of_number(language, *language->number, $1); }
-  | '(' expression ')'                         { $$ = value_placed($2, span_join($1, $3)); }
+  | '(' expression ')'                         { $$ = value_alone(language, $2, span_join($1, $3)); }
   | quantity '+' quantity                      { $$ = value_binary(language, '+', $1, $3); }
   | quantity '-' quantity                      { $$ = value_binary(language, '-', $1, $3); }
   | quantity '*' quantity                      { $$ = value_binary(language, '*', $1, $3); }

@@ -49,6 +49,18 @@ static void add_include_chain(struct text_buffer *block, const struct source *so
   }
 }
 
+static void add_around(struct text_buffer *block, const struct diagnostics *diagnostics)
+{
+  for (size_t k = 0; k < diagnostics->around_count; k++) {
+    const struct diagnostics_around *around = &diagnostics->around[k];
+    if (!around->place.source) continue;
+    if (around->round > 0) text_buffer_format(block, "in round %.0f of the loop at ", around->round);
+    else text_buffer_add_text(block, "called from ");
+    (void)add_position(block, around->place.source, source_locate(around->place.source, around->place.begin));
+    text_buffer_add_text(block, "\n");
+  }
+}
+
 static size_t step_forward(const char *text, size_t i, size_t end)
 {
   size_t bytes = source_character(text + i, end - i);
@@ -122,6 +134,7 @@ static void tell(struct diagnostics *diagnostics, struct place place, const char
   const struct source_position at = source_locate(place.source, place.begin);
   struct diagnostics_parts parts = {.warning = kind[0] == 'w', .line = at.line, .column = at.column};
   add_include_chain(&block, place.source);
+  add_around(&block, diagnostics);
   parts.name_begin = block.length;
   parts.name_end = add_position(&block, place.source, at);
   text_buffer_add_text(&block, " ");
@@ -164,4 +177,15 @@ void diagnostics_warning(struct diagnostics *diagnostics, struct place place, co
   va_start(arguments, format);
   tell(diagnostics, place, "warning: ", format, arguments);
   va_end(arguments);
+}
+
+void diagnostics_print(struct diagnostics *diagnostics, const char *text, size_t length)
+{
+  struct text_buffer block = {0};
+  if (diagnostics->quiet || !diagnostics->tell) return;
+  add_clean(&block, text, length);
+  diagnostics->parts = (struct diagnostics_parts){.said_end = block.length, .warning = true};
+  text_buffer_add_text(&block, "\n");
+  if (!block.failed) diagnostics->tell(diagnostics->context, block.text, block.length);
+  text_buffer_free(&block);
 }

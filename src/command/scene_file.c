@@ -98,6 +98,11 @@ static enum status load(const struct command *command, const struct scene_reques
 {
   const struct language_settings settings = {.image_width = (int)request->width,
                                              .image_height = (int)request->height,
+                                             .lenient = request->lenient,
+                                             .clock = request->clock,
+                                             .frame = request->frame,
+                                             .first_frame = request->first_frame,
+                                             .last_frame = request->last_frame,
                                              .solver_text = request->solver_text,
                                              .tolerance = request->tolerance,
                                              .folders = folders,
@@ -137,6 +142,9 @@ char *scene_request_text(const struct scene_request *request)
   if (request->solver_text != NULL) text_buffer_format(&text, " --solver '%s'", request->solver_text);
   number_write(request->tolerance, number);
   if (!isnan(request->tolerance)) text_buffer_format(&text, " --tolerance %s", number);
+  if (request->lenient) text_buffer_add_text(&text, " --lenient");
+  number_write(request->clock, number);
+  if (request->clock != 0) text_buffer_format(&text, " --clock %s", number);
   for (size_t k = 0; k < request->number_count; k++) {
     const struct language_number *given = &request->numbers[k];
     number_write(given->value, number);

@@ -24,6 +24,9 @@ struct scene_request {
   size_t folder_count;
   struct language_number numbers[SCENE_MOST_NUMBERS]; /* of --declare */
   size_t number_count;
+  double clock;
+  int frame, first_frame, last_frame; /* of an animation, or 0 */
+  bool lenient;
   bool quiet; /* no warnings */
 };
 
@@ -47,6 +50,8 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_
   COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, "that the scene may take; default a quarter of all, at most 8G", \
                  "SIZE"),                                                                                             \
     COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"),      \
+    COMMAND_TRUE("lenient", 0, scene.lenient, "leave out, with warnings, what pscn does not support"),                \
+    COMMAND_NUMBER("clock", scene.clock, "the value of clock in the scene", "X"),                                     \
     COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X")
 #define SCENE_OPTIONS                                                    \
   SCENE_SOLVER_OPTION("instead of every solver statement of the scene"), \

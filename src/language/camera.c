@@ -39,18 +39,17 @@ void camera_begin(struct language *language, struct span place)
 }
 
 /* The version before the first item counts. */
-static struct camera_items *begin_item(struct language *language)
+void camera_item(struct language *language)
 {
   struct camera_items *camera = language->camera;
   if (!camera->begun) camera->sorted = language->settings->version >= VERSION_SORTED;
   camera->begun = true;
-  return camera;
 }
 
 void camera_perspective(struct language *language, struct span place)
 {
   if (language->camera->begun) language_error(language, place, "perspective stands first in a camera");
-  begin_item(language);
+  camera_item(language);
 }
 
 /* Reports an item behind another one that depends on it in POV-Ray. */
@@ -62,7 +61,7 @@ static void tell_late(struct language *language, struct span place)
 
 void camera_vector(struct language *language, int which, const struct value *value)
 {
-  struct camera_items *camera = begin_item(language);
+  struct camera_items *camera = language->camera;
   value_to_vector(language, value, camera->item[which]);
   camera->unknown |= value->kind == VALUE_UNKNOWN;
   const bool of_angle = which == CAMERA_DIRECTION || which == CAMERA_RIGHT;
@@ -77,7 +76,7 @@ void camera_vector(struct language *language, int which, const struct value *val
 void camera_angle(struct language *language, const struct value *value)
 {
   double angle;
-  struct camera_items *camera = begin_item(language);
+  struct camera_items *camera = language->camera;
   if (camera->moved) tell_late(language, value->place);
   if (!value_to_number(language, value, &angle)) return;
   if (angle == 0 && !camera->sorted)
@@ -89,7 +88,8 @@ void camera_angle(struct language *language, const struct value *value)
 
 void camera_transform(struct language *language, const struct transform *transform)
 {
-  struct camera_items *camera = begin_item(language);
+  struct camera_items *camera = language->camera;
+  camera_item(language);
   camera->moved = true;
   camera->transform = transform_then(&camera->transform, transform);
 }

@@ -26,6 +26,7 @@ void camera_default(struct camera_items *out);
 /* Actions of the grammar, in the order of the text. `place`: that of the word. */
 void camera_begin(struct language *language, struct span place);
 void camera_perspective(struct language *language, struct span place);
+void camera_item(struct language *language); /* behind the word of an item */
 void camera_vector(struct language *language, int which, const struct value *value);
 void camera_angle(struct language *language, const struct value *value);
 void camera_transform(struct language *language, const struct transform *transform);

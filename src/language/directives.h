@@ -1,4 +1,5 @@
-/* Directives, and all other tokens of the scanner that are not the grammar's. */
+/* Directives, and all other tokens of the scanner that are not the grammar's. A loop's text is read again from its
+ * place in the source. */
 #ifndef PSCN_LANGUAGE_DIRECTIVES_H
 #define PSCN_LANGUAGE_DIRECTIVES_H
 
@@ -7,7 +8,14 @@
 /* Handles the scanner's last token if it is not the grammar's. Returns whether it did and the next one is wanted. */
 bool directives_pass(struct language *language, int token);
 
-/* Reports a directive that pscn, or nobody, has. */
-void directives_tell(struct language *language, int token);
+/* The next token of the source being read, whatever it is; counts those that loops and macros read again. */
+int directives_scan(struct language *language);
+
+/* Reads the name behind a directive, which is not a word of the language or of POV-Ray's. False, after an error, if
+ * there is none. */
+bool directives_name(struct language *language, const char *directive, struct name *out);
+
+/* Skips to behind the matching #end; false if there is none. */
+bool directives_skip_to_end(struct language *language);
 
 #endif

@@ -7,8 +7,12 @@
 #include "language/camera.h"
 #include "language/expand.h"
 #include "language/settings.h"
+#include "language/strings.h"
 #include "language/textures.h"
 #include "language/tokens.h"
+
+/* The most tokens that loops and macros read: a second's work. */
+enum { MOST_WORK = 20 * 1000 * 1000 };
 
 static const struct place NOWHERE = {NULL, 0, 0};
 
@@ -27,13 +31,15 @@ struct reading {
 static enum status reading_create(struct reading *r, const struct language_settings *settings,
                                   struct diagnostics *diagnostics)
 {
-  static const char name[] = "pscn";
   struct language *language = &r->language;
+  const int frames = settings->last_frame - settings->first_frame;
   memset(r, 0, sizeof *r);
   *language = (struct language){.diagnostics = diagnostics,
                                 .arena = arena_create(),
-                                .width = settings->image_width,
-                                .height = settings->image_height,
+                                .lenient = settings->lenient,
+                                .clock = settings->clock,
+                                .animated = settings->last_frame > 0,
+                                .max_work = settings->max_work ? settings->max_work : MOST_WORK,
                                 .max_memory = settings->max_memory ? settings->max_memory : SIZE_MAX,
                                 .symbols = &r->symbols,
                                 .sources = &r->sources,
@@ -47,7 +53,20 @@ static enum status reading_create(struct reading *r, const struct language_setti
   settings_default(&r->settings);
   r->sources.folders = settings->folders;
   if (!language->arena) return STATUS_LIMIT;
-  declare_number(language, name, sizeof name - 1, 1);
+  const struct {
+    const char *name;
+    double value;
+  } numbers[] = {{"pscn", 1}, /* not in POV-Ray */
+                 {"image_width", settings->image_width},
+                 {"image_height", settings->image_height},
+                 {"frame_number", settings->frame},
+                 {"initial_frame", settings->first_frame},
+                 {"final_frame", settings->last_frame},
+                 {"initial_clock", 0},
+                 {"final_clock", frames > 0},
+                 {"clock_delta", frames > 0 ? 1.0 / frames : 0}};
+  for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+    declare_number(language, numbers[k].name, strlen(numbers[k].name), numbers[k].value);
   for (size_t k = 0; k < settings->number_count; k++) {
     const struct language_number *number = &settings->numbers[k];
     declare_number(language, number->name, number->name_length, number->value);
@@ -61,7 +80,7 @@ static void reading_destroy(struct reading *r)
   arena_destroy(r->language.arena);
 }
 
-/* Reports the end of the text if what pscn lacks was held in a declaration that has no end. */
+/* Reports the end of the text within a declaration that has errors of its own, which were not reported. */
 static void tell_end(struct language *language)
 {
   const struct tokens *tokens = language->tokens;
@@ -75,8 +94,12 @@ static enum status parse(struct reading *r, struct source *source)
   const size_t before = r->language.diagnostics->error_count;
   if (setjmp(r->sources.broken) != 0) return STATUS_LIMIT;
   if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
+  r->tokens.start[0] = r->tokens.solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
+  r->tokens.start[1] = r->tokens.solver_only ? PSCN_TOKEN_SOLVER : 0;
   const int result = pscn_parse(&r->language);
-  symbols_tell_missed(&r->language);
+  if (!r->language.stopped) symbols_tell_missed(&r->language);
+  language_tell_left_out(&r->language);
+  messages_end(&r->language);
   if (result == 1 && r->language.diagnostics->error_count == before && !r->language.ended_early) tell_end(&r->language);
   if (r->language.ended_early || result == 2) return STATUS_LIMIT;
   return result != 0 || r->language.diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;

@@ -24,12 +24,16 @@ struct language_number {
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600 };
 
 struct language_settings {
-  int image_width, image_height; /* pixels, >= 1: the values of image_width and image_height in the scene */
-  const char *solver_text;       /* --solver TEXT: overrides every solver statement of the scene; or NULL */
-  double tolerance;              /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
-  const char *const *folders;    /* where to look for includes besides the includer's folder, ended by NULL; or NULL */
+  int image_width, image_height;      /* pixels, >= 1: the values of image_width and image_height in the scene */
+  const char *solver_text;            /* --solver TEXT: overrides every solver statement of the scene; or NULL */
+  bool lenient;                       /* --lenient: what pscn does not support is left out, with warnings */
+  double clock;                       /* --clock X; in frames what stands for one of them */
+  int frame, first_frame, last_frame; /* of an animation; 0, 0, 0: of none */
+  double tolerance;                   /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
+  const char *const *folders; /* where to look for includes besides the includer's folder, ended by NULL; or NULL */
   const struct language_number *numbers; /* number_count names declared beforehand */
   size_t number_count;
+  size_t max_work;   /* tokens that loops and macros may read; or 0: a second's work */
   size_t max_memory; /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
 };
 

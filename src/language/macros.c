@@ -1,97 +1,108 @@
-/* The names that macros declare. */
+/* Macros, whose text is read again at each call. */
 #include "language/macros.h"
 
-#include <string.h>
+#include "language/directives.h"
+#include "language/tokens.h"
+#include "language/values.h"
 
-#include "language/scan.h"
-#include "language/sources.h"
-
-/* The most different words of a macro that are examined, and the most words at all calls: a second's work. A macro with
- * more is reported as one that cannot be skipped. */
-enum { MOST_WORDS = 250, MOST_FOLLOWED = 10 * 1000 * 1000 };
-
-enum macro_role { ROLE_PARAMETER, ROLE_LOCAL, ROLE_DECLARED, ROLE_CALLED };
-
-struct macro_word {
-  enum macro_role role;
-  const char *text;
-  size_t length;
-  struct macro_word *next;
+enum {
+  MAX_CALLS = 200, /* calls and includes within each other; POV-Ray's limit is 100 */
+  CALL_WORK = 16   /* as many tokens take the time of a call */
 };
 
-struct macro {
-  struct macro_word *words;
-  size_t count;
-  bool lasting; /* it may do more than its names tell */
-  size_t call;  /* the last call that came to it */
-  /* while it is read: */
-  bool headed; /* its parameters have been read */
-  struct naming naming;
-  struct name called; /* the word before, the name of a call if a ( follows; its text is NULL for none */
-};
-
-struct macro *macro_begin(struct language *language) { return language_alloc(language, sizeof(struct macro)); }
-
-static void add_word(struct language *language, struct macro *macro, enum macro_role role, const struct name *name)
+/* Reads "(A, B)"; as in POV-Ray the commas may be left out. False after an error. */
+static bool read_parameters(struct language *language, struct macro *macro)
 {
-  if (language->ended_early) return;
-  for (const struct macro_word *w = macro->words; w; w = w->next) {
-    if (w->length != name->length || memcmp(w->text, name->text, w->length) != 0) continue;
-    /* a declaration of the parameter changes what was passed by its name */
-    if (role == ROLE_DECLARED && w->role == ROLE_PARAMETER) macro->lasting = true;
-    if (w->role == role || (role == ROLE_DECLARED && w->role != ROLE_CALLED)) return;
+  struct parameter **end = &macro->parameters;
+  int token = directives_scan(language);
+  if (token != '(') {
+    language_tell(language, sources_here(language), "#macro wants a name and then its parameters in parentheses");
+    return false;
   }
-  if (macro->count == MOST_WORDS) {
-    macro->lasting = true;
-    return;
+  while ((token = directives_scan(language)) == PSCN_TOKEN_WORD) {
+    const struct name name = sources_name(language, sources_here(language));
+    struct parameter *parameter = *end = language_alloc(language, sizeof *parameter);
+    const char *kept = language_keep(language, name.text, name.length);
+    if (!kept) return false;
+    *parameter = (struct parameter){.name = kept, .length = name.length};
+    end = &parameter->next;
+    macro->parameter_count++;
+    token = directives_scan(language);
+    if (token == PSCN_TOKEN_WORD) pscn_scan_seek(&language->sources->frame->scan, language->sources->frame->scan.begin);
+    else if (token != ',') break;
   }
-  struct macro_word *word = language_alloc(language, sizeof *word);
-  const char *text = language_keep(language, name->text, name->length);
-  if (!text) return;
-  *word = (struct macro_word){role, text, name->length, macro->words};
-  macro->words = word;
-  macro->count++;
+  if (token == ')') return true;
+  language_tell(language, sources_here(language), "a parameter of a macro is a name that is no word of the language");
+  return false;
 }
 
-void macro_note(struct language *language, struct macro *macro, int token, struct span place)
+void macro_declare(struct language *language)
 {
-  const struct name name = sources_name(language, place), none = {.text = NULL}, before = macro->called;
-  const int directive = naming_next(&macro->naming, token, place);
-  const bool word = token == PSCN_TOKEN_WORD;
-  macro->called = word && directive == 0 ? name : none;
-  if (!macro->headed) {
-    if (word) add_word(language, macro, ROLE_PARAMETER, &name);
-    macro->headed = token != '(' && token != ',' && !word;
-  } else if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE || token == PSCN_TOKEN_VERSION) {
-    macro->lasting = true;
-  } else if (directive != 0) {
-    add_word(language, macro, directive == PSCN_TOKEN_LOCAL ? ROLE_LOCAL : ROLE_DECLARED, &name);
-  } else if (token == '(' && before.text) {
-    add_word(language, macro, ROLE_CALLED, &before);
+  const struct frame *frame = language->sources->frame;
+  const struct span place = sources_here(language);
+  struct name name;
+  struct macro *macro = language_alloc(language, sizeof *macro);
+  const bool named = directives_name(language, "#macro", &name);
+  const bool whole = read_parameters(language, macro) && named;
+  macro->source = frame->source;
+  macro->base = frame->base;
+  macro->begin = frame->scan.end;
+  if (whole) {
+    struct value *value = declare_global(language, &name);
+    if (value->kind != VALUE_NONE && value->kind != VALUE_MACRO && value->kind != VALUE_UNKNOWN)
+      language_tell(language, name.place, "'%.*s' is declared already, and no macro; #undef it before",
+                    (int)name.length, name.text);
+    *value = (struct value){.kind = VALUE_MACRO, .macro = macro};
+    language->symbols->macros++;
   }
+  if (!directives_skip_to_end(language)) language_tell(language, place, "#macro without #end");
 }
 
-static void follow(struct language *language, const struct symbol *symbol, struct span place, int depth)
+/* Whether the arguments are as many as the parameters, and all have values. */
+static bool fit(struct language *language, const struct macro *macro, const struct value *arguments, size_t count,
+                const struct name *name)
 {
-  struct symbols *symbols = language->symbols;
-  if (!symbol || symbol->kind != SYMBOL_MACRO || symbol->macro->call == symbols->macro_calls) return;
-  struct macro *macro = symbol->macro;
-  macro->call = symbols->macro_calls;
-  symbols->macro_words += macro->count;
-  if (macro->lasting || depth == MAX_NESTING || symbols->macro_words > MOST_FOLLOWED)
-    language_tell(language, place, "this macro may change more than what is declared here, and is passed over");
-  for (const struct macro_word *w = macro->words; w; w = w->next) {
-    const struct name name = {.text = w->text, .length = w->length, .place = place};
-    if (w->role == ROLE_DECLARED) declare_lost(language, &name);
-    else if (w->role == ROLE_CALLED && depth < MAX_NESTING)
-      follow(language, symbol_find(language, w->text, w->length), place, depth + 1);
+  if (count != macro->parameter_count) {
+    language_tell(language, name->place, "the macro '%.*s' has %zu parameter%s, and %zu %s given", (int)name->length,
+                  name->text, macro->parameter_count, macro->parameter_count == 1 ? "" : "s", count,
+                  count == 1 ? "is" : "are");
+    return false;
   }
+  for (const struct value *a = arguments; a; a = a->next) {
+    if (a->kind != VALUE_NONE && a->kind != VALUE_MACRO) continue;
+    symbol_mistaken(language, a, "a value");
+    return false;
+  }
+  return true;
 }
 
-void macro_called(struct language *language, struct span place)
+static void call(struct language *language, const struct macro *macro, const struct name *name)
 {
-  if (language->symbols->macro_count == 0) return;
-  const struct name name = sources_name(language, place);
-  language->symbols->macro_calls++;
-  follow(language, symbol_find(language, name.text, name.length), place, 0);
+  size_t count = 0;
+  struct value *arguments = NULL;
+  if (!tokens_parse(language, PSCN_TOKEN_START_ARGUMENTS, &arguments)) return;
+  for (struct value *a = arguments; a; a = a->next, count++)
+    if (a->depth > language->symbols->depth) a->named = NULL;
+  if (fit(language, macro, arguments, count, name)) {
+    if (language->symbols->depth == MAX_CALLS) {
+      language_limit(language, name->place, "macros are called more than 200 deep");
+      return;
+    }
+    language->work += CALL_WORK;
+    sources_call(language, macro, name->place);
+    const struct value *a = arguments;
+    for (const struct parameter *p = macro->parameters; p && !language->ended_early; p = p->next, a = a->next)
+      declare_parameter(language, &(struct name){.text = p->name, .length = p->length, .place = name->place}, a);
+  }
+  value_last_of_list(language, arguments);
+}
+
+bool macro_called(struct language *language)
+{
+  if (language->symbols->macros == 0) return false;
+  const struct name name = sources_name(language, sources_here(language));
+  const struct value *value = symbol_find(language, name.text, name.length);
+  if (!value || value->kind != VALUE_MACRO) return false;
+  call(language, value->macro, &name);
+  return true;
 }

@@ -1,18 +1,26 @@
-/* What a macro does besides what it stands for. pscn skips its text. But where POV-Ray calls it within a declaration,
- * the names that it declares change their meaning. */
+/* Macros: where their text is, and their calls. */
 #ifndef PSCN_LANGUAGE_MACROS_H
 #define PSCN_LANGUAGE_MACROS_H
 
+#include "language/sources.h"
 #include "language/symbols.h"
 
-struct macro;
+struct macro {
+  const struct source *source;
+  uint32_t base; /* where the spans of that begin */
+  size_t begin;  /* of its text, which ends at the matching #end */
+  size_t parameter_count;
+  struct parameter {
+    struct parameter *next;
+    const char *name;
+    size_t length;
+  } * parameters;
+};
 
-struct macro *macro_begin(struct language *language);
-/* Takes one token after another, beginning behind the macro's name. */
-void macro_note(struct language *language, struct macro *macro, int token, struct span place);
+/* At #macro: declares a macro, and passes over its text. */
+void macro_declare(struct language *language);
 
-/* Handles a word of a declaration or of skipped text: if it names a macro, all that this declares is foreign from here
- * on. */
-void macro_called(struct language *language, struct span place);
+/* If the word just read names a macro, reads its arguments and begins to read its text. Returns whether it did. */
+bool macro_called(struct language *language);
 
 #endif

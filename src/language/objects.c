@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "language/sources.h"
+#include "language/tokens.h"
 
 /* Patches of one scene: as many as fit in the memory of a large machine. */
 #define MAX_PATCHES ((size_t)50 * 1000 * 1000)
@@ -205,14 +206,14 @@ void copy_object(struct language *language, const struct node *object)
   take_object(language, language->objects->whole, object);
 }
 
-void copy_named(struct language *language, struct span place)
+void copy_named(struct language *language, const struct value *value)
 {
-  const struct name name = sources_name(language, place);
-  const struct symbol *symbol = symbol_wanted(language, &name, SYMBOL_OBJECT, "an object");
-  if (symbol) {
-    symbol->object->sharing->uses++;
+  if (value->kind == VALUE_OBJECT) {
+    value->object->sharing->uses++;
     language->objects->copies++;
-    take_object(language, place, symbol->object);
+    take_object(language, value->place, value->object);
+  } else {
+    symbol_mistaken(language, value, "an object");
   }
   language->objects->open->has_object = true; /* it was meant to have one */
 }
@@ -231,13 +232,21 @@ void copy_end(struct language *language)
     language_error_in(language, &open->block, open->block.place, "this object has no object in it");
 }
 
-void declare_object(struct language *language, struct declaration *declaration, struct node *object)
+struct value *value_of_object(struct language *language, struct node *object)
 {
-  struct symbol *symbol = declare_end(language, declaration);
-  if (!symbol) return;
+  struct value *value = value_of(language, VALUE_OBJECT, object->place);
   if (!object->sharing) object->sharing = language_alloc(language, sizeof *object->sharing);
-  symbol->kind = SYMBOL_OBJECT;
-  symbol->object = object;
+  value->object = object;
+  return value;
+}
+
+struct node *shape_pass(struct language *language, struct span place)
+{
+  struct node *node = language_alloc(language, sizeof *node);
+  language_lacks_word(language, place);
+  node->place = place;
+  language->objects->whole = span_join(place, tokens_pass_block(language));
+  return node;
 }
 
 /* ---- modifiers ---- */

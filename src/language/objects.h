@@ -70,14 +70,16 @@ void union_begin(struct language *language, struct span place);
 void union_add(struct language *language, struct node *object);
 void union_modified(struct language *language);
 void copy_begin(struct language *language, struct span place);
-void copy_named(struct language *language, struct span name);
+void copy_named(struct language *language, const struct value *value);
 void copy_object(struct language *language, const struct node *object);
 void copy_modified(struct language *language, struct span place);
 void copy_end(struct language *language);
 struct node *node_end(struct language *language, struct span brace);
 void node_transform(struct language *language, const struct transform *transform);
 void node_texture(struct language *language, struct texture *texture); /* keeps it */
-void declare_object(struct language *language, struct declaration *declaration, struct node *object);
+struct value *value_of_object(struct language *language, struct node *object);
+/* A shape that pscn lacks: an error, or an object without patches. Passes its block. */
+struct node *shape_pass(struct language *language, struct span place);
 void scene_add(struct language *language, struct node *object);
 
 #endif

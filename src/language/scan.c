@@ -60,5 +60,5 @@ bool scan_is_word(int token)
 {
   return token > 255 && token < TOKEN_FIRST_PRIVATE && token != PSCN_TOKEN_NUMBER && token != PSCN_TOKEN_POINT &&
          token != PSCN_TOKEN_STRING && token != PSCN_TOKEN_VERSION && token != PSCN_TOKEN_DECLARE &&
-         token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_DEFAULT && token != PSCN_TOKEN_FOREIGN_SIGN;
+         token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_DEFAULT && token != PSCN_TOKEN_COMPARISON;
 }

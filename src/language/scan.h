@@ -14,23 +14,30 @@ enum {
   TOKEN_OPEN_COMMENT,
   TOKEN_OPEN_STRING,
   TOKEN_BAD_CHARACTER,
+  TOKEN_SECOND_POINT,  /* a number with a second point, and what follows it; scan->number[0] is 1 */
+  TOKEN_OTHER_LETTERS, /* a name with letters that are not ASCII */
+  TOKEN_OPEN_EXPONENT, /* a number whose exponent has no digits, and the word that begins there; scan->number[0] is 1 */
+  TOKEN_FIRST_DIRECTIVE,
   TOKEN_INCLUDE,
   TOKEN_IFDEF,
   TOKEN_IFNDEF,
+  TOKEN_IF,
+  TOKEN_ELSEIF,
   TOKEN_ELSE,
-  TOKEN_ELSEIF, /* POV-Ray's */
-  TOKEN_ENDIF,
+  TOKEN_END,
+  TOKEN_WHILE,
+  TOKEN_FOR,
+  TOKEN_SWITCH,
+  TOKEN_CASE,
+  TOKEN_RANGE,
+  TOKEN_BREAK,
   TOKEN_MACRO,
   TOKEN_UNDEF,
-  TOKEN_FOREIGN_OPENER,    /* a directive of POV-Ray's that pscn lacks and that has an #end: #if, #while ... */
-  TOKEN_FOR,               /* #for, which also declares its variable */
-  TOKEN_FOREIGN_DIRECTIVE, /* a directive without #end */
-  TOKEN_FILE,              /* #fopen, which declares a name, or #fclose, which undeclares it */
-  TOKEN_READ,              /* #read, which gives values to several names */
-  TOKEN_UNKNOWN_DIRECTIVE,
-  TOKEN_SECOND_POINT,  /* a number with a second point, and what follows it; scan->number[0] is 1 */
-  TOKEN_OTHER_LETTERS, /* a name with letters that are not ASCII */
-  TOKEN_OPEN_EXPONENT  /* a number whose exponent has no digits, and the word that begins there; scan->number[0] is 1 */
+  TOKEN_DEBUG, /* also #render and #statistics, as in POV-Ray */
+  TOKEN_WARNING,
+  TOKEN_ERROR,
+  TOKEN_FOREIGN_DIRECTIVE, /* of files */
+  TOKEN_UNKNOWN_DIRECTIVE
 };
 
 /* One scanner over one text. */
@@ -57,6 +64,9 @@ bool pscn_scan_open(struct scan *scan, char *text, size_t length, jmp_buf *broke
 
 /* The next token: a grammar token, 0 at the end, or one of the above. */
 int pscn_scan_next(struct scan *scan);
+
+/* Goes on with the token that begins at that byte, outside of comments. */
+void pscn_scan_seek(struct scan *scan, size_t at);
 void pscn_scan_close(struct scan *scan);
 
 /* Sets the value of a number of one digit, as many are. */
@@ -69,7 +79,7 @@ void scan_numbers(struct scan *scan, const char *text, size_t length, int count)
 /* Whether text[0 .. length-1], which follows a #, is comments and then a word, as POV-Ray allows. */
 bool scan_comments_lead_to_word(const char *text, size_t length);
 
-/* Whether a token is a word: a name, or a word of the language or of POV-Ray's. */
+/* Whether a token is a word: a name, or a word of the language or of POV-Ray's; no directive. */
 bool scan_is_word(int token);
 
 #endif

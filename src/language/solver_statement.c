@@ -110,10 +110,9 @@ void solver_word(struct language *language, struct span name, struct span place)
     set_item(language, item, name, (double)k);
     return;
   }
-  const struct symbol *symbol = symbol_find(language, value.text, value.length);
-  if (symbol && symbol->kind == SYMBOL_VALUE && symbol->value.kind == VALUE_NUMBER)
-    set_number(language, item, place, symbol->value.x[0]);
-  else if (!symbol || symbol->kind != SYMBOL_BROKEN) tell_wanted(language, place, item);
+  const struct value *named = symbol_find(language, value.text, value.length);
+  if (named && named->kind == VALUE_NUMBER) set_number(language, item, place, named->x[0]);
+  else if (!named || named->kind != VALUE_UNKNOWN) tell_wanted(language, place, item);
 }
 
 void solver_misplaced(struct language *language, struct span place)

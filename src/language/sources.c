@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "language/include_path.h"
+#include "language/macros.h"
 
 enum {
   MAX_INCLUDE_DEPTH = 32,
@@ -79,6 +80,21 @@ static bool is_wide(const struct source *source)
   return source->length >= 4 && (t[0] == 0) == (t[2] == 0) && (t[1] == 0) == (t[3] == 0) && (t[0] == 0) != (t[1] == 0);
 }
 
+static bool open_frame(struct language *language, const struct frame *frame)
+{
+  struct sources *sources = language->sources;
+  struct frame *made = sources->unused;
+  if (made) sources->unused = made->outer;
+  else made = language_alloc(language, sizeof *made);
+  if (language->ended_early) return false;
+  *made = *frame;
+  made->outer = sources->frame;
+  if (!pscn_scan_open(&made->scan, frame->source->text, frame->source->length, &sources->broken)) return false;
+  sources->frame = made;
+  language->number = made->scan.number;
+  return true;
+}
+
 bool sources_open(struct language *language, struct source *source)
 {
   if (!remember(language, source)) {
@@ -87,18 +103,72 @@ bool sources_open(struct language *language, struct source *source)
   }
   const bool wide = is_wide(source);
   if (wide) memset(source->text, 0, source->length), source->length = 0;
-  struct frame *frame = memory_alloc(1, sizeof *frame);
-  if (!frame || !pscn_scan_open(&frame->scan, source->text, source->length, &language->sources->broken)) {
-    memory_free(frame);
-    return false;
-  }
-  frame->source = source;
-  frame->base = language->sources->all->base;
-  frame->outer = language->sources->frame;
-  language->sources->frame = frame;
-  language->number = frame->scan.number;
-  if (wide) language_tell(language, sources_span(frame, 0, 0), "this is UTF-16: save it as UTF-8 or ASCII");
+  language->sources->included++;
+  if (!open_frame(language, &(struct frame){.source = source, .base = language->sources->all->base})) return false;
+  if (wide)
+    language_tell(language, sources_span(language->sources->frame, 0, 0), "this is UTF-16: save it as UTF-8 or ASCII");
   return true;
+}
+
+void sources_call(struct language *language, const struct macro *macro, struct span called)
+{
+  source_recall(macro->source);
+  if (!open_frame(language,
+                  &(struct frame){.source = macro->source, .base = macro->base, .macro = macro, .called = called})) {
+    language->ended_early = true;
+    return;
+  }
+  language->sources->again++;
+  pscn_scan_seek(&language->sources->frame->scan, macro->begin);
+  symbols_enter(language->symbols);
+}
+
+struct condition *sources_open_condition(struct language *language, enum opener opener, struct span place)
+{
+  struct sources *sources = language->sources;
+  struct frame *frame = sources->frame;
+  struct condition *condition = sources->closed;
+  if (frame->conditions == MAX_CONDITIONS) {
+    language_limit(language, place, "conditions and loops are nested more than 200 deep");
+    return NULL;
+  }
+  if (condition) sources->closed = condition->outer;
+  else condition = language_alloc(language, sizeof *condition);
+  if (language->ended_early) return NULL;
+  *condition = (struct condition){.outer = frame->condition, .opener = opener, .place = place};
+  frame->condition = condition;
+  frame->conditions++;
+  if (opener == OPEN_WHILE || opener == OPEN_FOR) {
+    source_recall(frame->source); /* its text is read more than once */
+    sources->again++;
+  }
+  return condition;
+}
+
+void sources_close_condition(struct language *language)
+{
+  struct sources *sources = language->sources;
+  struct frame *frame = sources->frame;
+  struct condition *condition = frame->condition;
+  frame->condition = condition->outer;
+  frame->conditions--;
+  sources->again -= condition->opener == OPEN_WHILE || condition->opener == OPEN_FOR;
+  condition->outer = sources->closed;
+  sources->closed = condition;
+}
+
+size_t sources_around(const struct language *language, struct diagnostics_around out[], size_t most)
+{
+  size_t count = 0;
+  for (const struct frame *f = language->sources->frame; f; f = f->outer) {
+    for (const struct condition *c = f->condition; c; c = c->outer) {
+      if ((c->opener != OPEN_WHILE && c->opener != OPEN_FOR) || ++count > most) continue;
+      out[most - count] = (struct diagnostics_around){sources_place(language, c->place), c->rounds};
+    }
+    if (f->macro && ++count <= most)
+      out[most - count] = (struct diagnostics_around){sources_place(language, f->called), 0};
+  }
+  return count;
 }
 
 /* The hash of all files, from the last one read to the first. */
@@ -160,12 +230,17 @@ void sources_pass(struct language *language)
 
 void sources_leave(struct language *language)
 {
-  struct frame *frame = language->sources->frame;
+  struct sources *sources = language->sources;
+  struct frame *frame = sources->frame;
+  while (frame->condition) sources_close_condition(language);
   if (frame->outer) symbols_leave(language->symbols);
-  language->sources->frame = frame->outer;
+  sources->frame = frame->outer;
+  sources->included -= !frame->macro;
+  sources->again -= frame->macro != NULL;
   if (frame->outer) language->number = frame->outer->scan.number;
   pscn_scan_close(&frame->scan);
-  memory_free(frame);
+  frame->outer = sources->unused;
+  sources->unused = frame;
 }
 
 void sources_close(struct language *language)
@@ -283,7 +358,7 @@ void sources_include(struct language *language)
     language_tell(language, place, "#include wants a file name in quotes");
     return;
   }
-  if (language->symbols->depth == MAX_INCLUDE_DEPTH) {
+  if (language->sources->included > MAX_INCLUDE_DEPTH) {
     language_tell(language, place, "files are included more than %d deep", MAX_INCLUDE_DEPTH);
     return;
   }

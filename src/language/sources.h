@@ -6,29 +6,44 @@
 #include "language/symbols.h"
 #include "scene/scene.h"
 
+/* What an #end ends. */
+enum opener { OPEN_IF, OPEN_WHILE, OPEN_FOR, OPEN_SWITCH };
+
 struct condition {
-  struct span place; /* of the #ifdef */
+  struct condition *outer; /* of the same frame; or of those to be reused */
+  enum opener opener;
+  struct span place; /* of its directive */
   bool seen_else;
+  size_t begin, end; /* of a loop: where its condition or its text begins; behind its #end, once that has been met */
+  double rounds;     /* of a loop */
+  double last, step; /* of a #for */
+  struct name name;
+  double chosen; /* of a #switch */
 };
 
 enum { MAX_CONDITIONS = 200 }; /* open in one source */
 
-/* A source being read. */
+/* A source being read, or the text of a macro. */
 struct frame {
   struct frame *outer;
   const struct source *source;
   uint32_t base; /* where its spans begin */
   struct scan scan;
-  struct condition condition[MAX_CONDITIONS];
+  struct condition *condition; /* the innermost that is open */
   int conditions;
+  const struct macro *macro; /* NULL: a whole source */
+  struct span called;        /* the macro, where */
 };
 
 /* Zeroed: no sources. */
 struct sources {
-  struct frame *frame;     /* being read */
-  struct source_list *all; /* all that have been read */
-  struct table files;      /* the first source of each file */
-  int count;
+  struct frame *frame;  /* being read */
+  struct frame *unused; /* to be reused */
+  struct condition *closed;
+  struct source_list *all;    /* all that have been read */
+  struct table files;         /* the first source of each file */
+  int count, included;        /* sources; those open */
+  size_t again;               /* loops and macros being read */
   uint32_t end;               /* where the spans of all of them end */
   jmp_buf broken;             /* for the scanners */
   const char *const *folders; /* where to look besides the includer's folder, or NULL */
@@ -46,10 +61,26 @@ void sources_include(struct language *language);
 /* Reports the unclosed quote at the last token. */
 void sources_tell_open_string(struct language *language);
 
+/* Whether the text being read stays in memory: that of a macro, which may declare names again and again. */
+static inline bool sources_stays(const struct language *language)
+{
+  return language->sources->frame && language->sources->frame->macro;
+}
+
 /* The text read so far is needed only for errors now: gives back the memory of a long one. */
 void sources_pass(struct language *language);
 
-/* Goes back to the includer. */
+/* Begins to read the text of a macro, which is in that source, named at `called`. */
+void sources_call(struct language *language, const struct macro *macro, struct span called);
+
+/* Opens and closes a condition or a loop in the source being read; NULL, after an error, if there are too many. */
+struct condition *sources_open_condition(struct language *language, enum opener opener, struct span place);
+void sources_close_condition(struct language *language);
+
+/* The loops and macros around what is being read, the innermost last, `most` of them. Returns how many there are. */
+size_t sources_around(const struct language *language, struct diagnostics_around out[], size_t most);
+
+/* Goes back to the includer or to the call. */
 void sources_leave(struct language *language);
 void sources_close(struct language *language);
 

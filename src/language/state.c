@@ -8,82 +8,122 @@
 
 #include "language/sources.h"
 
-/* At most this many errors of one declaration are reported. */
-enum { MOST_HELD = 20 };
+enum { MOST_AROUND = 8 };
 
-bool language_holds_enough(const struct language *language)
-{
-  return language->declaration && language->declaration->held_count >= MOST_HELD;
-}
-
-/* The place for one more held error, or NULL if it is only counted. */
-static struct held *hold(struct language *language, struct span place)
-{
-  struct declaration *declaration = language->declaration;
-  language->held_count++;
-  const bool enough = language_holds_enough(language);
-  declaration->held_count++;
-  if (enough) return NULL;
-  struct held *held = *declaration->held_end = language_alloc(language, sizeof *held);
-  declaration->held_end = &held->next;
-  held->place = place;
-  return held;
-}
-
-void language_hold(struct language *language, struct span place, struct held *of)
-{
-  struct held *held = hold(language, place);
-  if (held) held->of = of;
-}
-
-static void tell(struct language *language, struct span place, bool holds, const char *format, va_list arguments)
+static void tell(struct language *language, struct span place, const char *format, va_list arguments)
 {
   char message[400];
-  struct held *held = holds ? hold(language, place) : NULL;
-  if (holds && !held) return;
-  const size_t size = 1 + (size_t)vsnprintf(message, sizeof message, format, arguments);
-  const size_t kept = size < sizeof message ? size : sizeof message;
-  if (held) held->text = memcpy(language_alloc(language, kept), message, kept);
-  else diagnostics_error(language->diagnostics, sources_place(language, place), "%s", message);
+  struct diagnostics_around around[MOST_AROUND];
+  struct diagnostics *diagnostics = language->diagnostics;
+  vsnprintf(message, sizeof message, format, arguments);
+  const size_t count = language->sources->again > 0 ? sources_around(language, around, MOST_AROUND) : 0;
+  const size_t shown = count < MOST_AROUND ? count : MOST_AROUND;
+  diagnostics->around = around + MOST_AROUND - shown;
+  diagnostics->around_count = shown;
+  diagnostics_error(diagnostics, sources_place(language, place), "%s", message);
+  diagnostics->around_count = 0;
 }
 
 void language_tell(struct language *language, struct span place, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
-  tell(language, place, false, format, arguments);
+  tell(language, place, format, arguments);
   va_end(arguments);
 }
 
-bool language_holds(const struct language *language)
+bool language_idle(const struct language *language)
 {
-  return language->declaration && language->declaration->held_count > 0;
+  return language->idle > 0 ||
+         (!language->lenient && language->declaration && span_begin(language->declaration->lacks) > 0);
 }
 
 void language_error(struct language *language, struct span place, const char *format, ...)
 {
   va_list arguments;
+  if (language_idle(language)) return;
   va_start(arguments, format);
-  tell(language, place, language_holds(language), format, arguments);
+  tell(language, place, format, arguments);
   va_end(arguments);
 }
 
-void language_foreign(struct language *language, struct span place, const char *format, ...)
+/* ---- what pscn lacks ---- */
+
+struct left_out {
+  struct left_out *before;
+  char word[40]; /* POV-Ray's are shorter */
+  struct span place;
+  size_t times;
+};
+
+static void leave_out(struct language *language, const struct name *name)
 {
-  va_list arguments;
-  va_start(arguments, format);
-  tell(language, place, language->declaration != NULL, format, arguments);
-  va_end(arguments);
+  struct left_out *left = language->left_out;
+  while (left && words_compare(name->text, name->length, left->word) != 0) left = left->before;
+  if (!left) {
+    left = language_alloc(language, sizeof *left);
+    *left = (struct left_out){.before = language->left_out, .place = name->place};
+    snprintf(left->word, sizeof left->word, "%.*s", (int)name->length, name->text);
+    if (!language->ended_early) language->left_out = left;
+  }
+  left->times++;
+}
+
+void language_left_out(struct language *language, struct span place)
+{
+  const struct name name = sources_name(language, place);
+  if (language->declaration) language->declaration->lacks = place;
+  else leave_out(language, &name);
+}
+
+void language_lacks(struct language *language, struct span place, const struct name *what, const char *instead)
+{
+  if (language_idle(language)) return;
+  language->left_out_last = place;
+  if (language->declaration) language->declaration->lacks = place;
+  else if (language->lenient) leave_out(language, what);
+  else
+    language_error(language, place, "%.*s is not supported%s%s; --lenient leaves it out", (int)what->length, what->text,
+                   *instead ? ": " : "", instead);
+}
+
+void language_lacks_word(struct language *language, struct span place)
+{
+  const struct name name = sources_name(language, place);
+  language_lacks(language, place, &name, words_instead(name.text, name.length));
+}
+
+void language_refuses(struct language *language, struct span place)
+{
+  const struct name name = sources_name(language, place);
+  const char *instead = words_instead(name.text, name.length);
+  if (language->declaration && !language_idle(language)) language->declaration->lacks = place;
+  else
+    language_error(language, place, "%.*s is not supported%s%s", (int)name.length, name.text, *instead ? ": " : "",
+                   instead);
+}
+
+void language_tell_left_out(struct language *language)
+{
+  struct left_out *first = NULL;
+  for (struct left_out *left = language->left_out, *before; left; left = before)
+    before = left->before, left->before = first, first = left;
+  for (const struct left_out *left = first; left; left = left->before) {
+    char times[40] = "";
+    if (left->times > 1) snprintf(times, sizeof times, ", in %zu places", left->times);
+    diagnostics_warning(language->diagnostics, sources_place(language, left->place), "%s is left out%s", left->word,
+                        times);
+  }
 }
 
 struct block language_block(const struct language *language, struct span place)
 {
-  return (struct block){place, language->diagnostics->error_count + language->held_count};
+  return (struct block){place, language->diagnostics->error_count};
 }
 
 bool language_sound(const struct language *language, const struct block *block)
 {
-  return language->diagnostics->error_count + language->held_count == block->errors;
+  return language->diagnostics->error_count == block->errors;
 }
 
 void language_error_in(struct language *language, const struct block *block, struct span place, const char *text)
@@ -94,7 +134,7 @@ void language_error_in(struct language *language, const struct block *block, str
 void language_limit(struct language *language, struct span place, const char *text)
 {
   if (!language->ended_early) {
-    diagnostics_error(language->diagnostics, sources_place(language, place), "%s", text);
+    language_tell(language, place, "%s", text);
     language->limit_told = true;
   }
   language->ended_early = true;

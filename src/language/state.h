@@ -45,39 +45,35 @@ struct block {
 /* How far a block has come, which decides what may follow. */
 enum stage { STAGE_SETTINGS, STAGE_BODY, STAGE_MODIFIERS };
 
-struct symbol;
-
-/* An error that a declaration holds: reported only where the declared name is used. */
-struct held {
-  struct held *next;
-  struct span place;
-  const char *text; /* or, if that is NULL, */
-  struct held *of;  /* all that is held of a name that was used there */
-  /* Of the first of a list: */
-  bool told;          /* the list has been reported, or is about to be */
-  struct held *after; /* the list to report after it */
-};
-
 /* A declaration that is being read. */
 struct declaration {
   struct declaration *outer;
-  struct symbol *symbol;
-  struct held *held, **held_end;
-  size_t held_count;
+  struct value *to;
+  const struct frame *frame; /* where its = stands, with that many braces open */
+  int braces;
+  struct span name;
+  int depth;         /* of its symbol */
+  struct span lacks; /* the first word in it that pscn lacks, or none */
 };
 
 struct language {
   struct diagnostics *diagnostics;
-  struct arena *arena; /* for what is needed only while reading */
-  int width, height;
+  struct arena *arena;                    /* for what is needed only while reading */
   size_t memory_bytes, max_memory;        /* in use while reading; allowed */
   bool unaffordable;                      /* more was needed */
   bool ended_early;                       /* out of memory, or a stated limit: STATUS_LIMIT */
   bool limit_told;                        /* it was a stated limit, which is reported */
+  struct span letters;                    /* the last word reported for its letters */
   struct span unknown;                    /* the last word reported as unknown */
   struct declaration *declaration;        /* the innermost that is open, or NULL */
-  struct declaration *layered;            /* the one of a texture, which more layers may follow, or NULL */
-  size_t held_count;                      /* in all declarations */
+  struct value *layered;                  /* the declared texture that more layers may follow, or NULL */
+  size_t declared;                        /* declarations that have ended */
+  int idle;                               /* choices whose other branch is being read */
+  bool lenient;                           /* what pscn lacks is left out */
+  bool stopped;                           /* by #error */
+  double clock;                           /* of the frame */
+  bool animated;                          /* clock_on */
+  size_t work, max_work;                  /* tokens read by loops and macros; allowed */
   struct value *unused;                   /* values to be reused */
   const double *number;                   /* of the last token, if that is a number or a vector; until the next one */
   _Alignas(max_align_t) char spare[4096]; /* stands in when memory is short */
@@ -85,6 +81,12 @@ struct language {
 
   struct symbols *symbols;
   struct sources *sources;
+  struct left_out *left_out; /* what was, the last kind first */
+  struct span left_out_last; /* its last place */
+  struct open_array *array;  /* the innermost that is open */
+  struct value *list;        /* what a directive's parentheses hold */
+  struct randoms *randoms;   /* the generators that seed has made */
+  struct messages *messages; /* what #debug says */
   struct tokens *tokens;
   struct texture *texture;               /* the innermost that is open */
   const struct texture *texture_default; /* as the last #default left it */
@@ -100,27 +102,28 @@ struct language {
   struct settings *settings;
 };
 
-/* Reports an error in how files are put together: in comments, quotes, conditions or blocks as a whole. Never held. */
+/* Reports an error in how files are put together: in comments, quotes, conditions or blocks as a whole. */
 void language_tell(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Reports, or holds, an error in what the text means. */
+/* Reports an error in what the text means, unless it is idle. */
 void language_error(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Reports what pscn lacks, though POV-Ray may have it ("foreign"). Within a declaration this is held, and so is all
- * that language_error gets in it from there on, because libraries declare more than a scene uses. */
-void language_foreign(struct language *language, struct span place, const char *format, ...)
-  __attribute__((format(printf, 3, 4)));
+/* Whether what is being read cannot matter: the branch of a choice that is not chosen; or the rest of a declaration
+ * with what pscn lacks, which is reported where its name is used, because libraries declare more than a scene uses. */
+bool language_idle(const struct language *language);
 
-/* Whether language_error now holds what it gets. */
-bool language_holds(const struct language *language);
-
-/* Whether the declaration being read holds so much that language_foreign now only counts. */
-bool language_holds_enough(const struct language *language);
-
-/* Holds all that is held of a foreign name used here. */
-void language_hold(struct language *language, struct span place, struct held *of);
+/* Handles what pscn lacks, a word or something else with a name, in place of which there is something, or "": an
+ * error, or left out if that is allowed; in a declaration, kept for its uses. */
+void language_lacks(struct language *language, struct span place, const struct name *what, const char *instead);
+void language_lacks_word(struct language *language, struct span place);
+/* The name used here was declared without what is at the place. */
+void language_left_out(struct language *language, struct span place);
+/* The same of a word that cannot be left out. */
+void language_refuses(struct language *language, struct span place);
+/* At the end, reports what was left out. */
+void language_tell_left_out(struct language *language);
 
 struct block language_block(const struct language *language, struct span place);
 /* Whether no error has been reported since the block began. If one has, what is missing in it may be a consequence. */
@@ -130,6 +133,12 @@ void language_error_in(struct language *language, const struct block *block, str
 
 /* Reports a stated limit: reading ends at the next token, with STATUS_LIMIT. */
 void language_limit(struct language *language, struct span place, const char *text);
+
+/* Whether nothing more is read. */
+static inline bool language_ended(const struct language *language)
+{
+  return language->ended_early || language->stopped;
+}
 
 /* Whether settings.max_memory allows that many more bytes; if so, counts them. */
 bool language_afford(struct language *language, size_t bytes);

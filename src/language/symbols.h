@@ -10,8 +10,14 @@ enum value_kind {
   VALUE_NUMBER, /* in all of x, so that it is a vector where one is wanted */
   VALUE_VECTOR,
   VALUE_COLOUR, /* red, green, blue */
-  VALUE_NAMED,  /* not a value, but the object or texture `symbol` */
-  VALUE_UNKNOWN /* an error has been reported; any use of it is accepted */
+  VALUE_STRING,
+  VALUE_ARRAY,
+  VALUE_TEXTURE, /* a texture, a pigment or a finish */
+  VALUE_OBJECT,
+  VALUE_MACRO,
+  VALUE_FOREIGN, /* declared with what pscn lacks */
+  VALUE_NONE,    /* a name not declared; an element of an array not set */
+  VALUE_UNKNOWN  /* an error has been reported; any use of it is accepted */
 };
 
 /* The reasons: a number after `color`, which stands for all five parts of a colour; a filter or transmit part. */
@@ -24,119 +30,92 @@ struct value {
   bool open;            /* has three parts, but POV-Ray takes it for five behind a colour: an axis, a named vector */
   bool wide;            /* computed from an open one: behind a colour, it makes that transparent in POV-Ray */
   bool bare;            /* a colour followed by a part, without rgb or color before it */
-  double x[3];
-  const struct symbol *symbol;
+  bool told;            /* what it lacks has been reported */
+  union {
+    double x[3];
+    struct {
+      const char *text;
+      size_t length;
+    };
+    struct array *array;
+    const struct texture *texture;
+    const struct node *object;
+    const struct macro *macro;
+  };
+  struct span lacks;   /* the first word of its declaration that pscn lacks, or none */
+  struct value *named; /* the declared one that this is, unchanged; or NULL */
+  int depth;           /* of that one's symbol, which is gone if this is deeper than what is being read */
   struct span place;
-  struct value *next; /* of language->unused */
+  struct value *next; /* of language->unused, or of a list */
 };
 
-enum symbol_kind {
-  SYMBOL_BEGUN,
-  SYMBOL_UNKNOWN, /* not declared, but reported as missing */
-  SYMBOL_VALUE,
-  SYMBOL_TEXTURE,
-  SYMBOL_OBJECT,
-  SYMBOL_MACRO,
-  SYMBOL_FOREIGN, /* its declaration uses what pscn lacks */
-  SYMBOL_BROKEN
-};
-
-/* A name that was unknown. */
-struct missed {
-  const struct symbol *symbol;
-  size_t times;
-  struct span last;
-  struct missed *next; /* the one found unknown before it */
+/* An array of up to 5 dimensions, as POV-Ray's. Arrays are copied by a declaration; arguments of macros are not. */
+enum { MAX_DIMENSIONS = 5 };
+struct array {
+  int dimensions, size[MAX_DIMENSIONS];
+  size_t count;
+  struct value *elements; /* the last index runs fastest */
 };
 
 struct symbol {
   struct table_entry entry;
-  struct symbol *before; /* the one before it, of all names */
-  struct symbol *older;  /* the local one before it */
+  struct symbol *before; /* the one before it: of all that are global, or of all that are not */
   const char *name;
   size_t length;
-  int depth; /* 0: global; otherwise the include depth of its #local */
-  bool gone; /* undeclared */
-  bool lost; /* foreign, because skipped text may declare or undeclare it */
-  enum symbol_kind kind;
-  union {
-    struct value value;
-    struct {
-      const struct texture *texture;
-      const char *texture_kind; /* "a texture", "a pigment", "a finish" */
-    };
-    const struct node *object;
-    struct held *held; /* of a foreign one */
-    struct macro *macro;
-  };
-  struct missed *missed; /* NULL: never unknown */
+  int depth;           /* 0: global; otherwise the depth in includes and calls of its #local */
+  bool gone;           /* undeclared */
+  struct value *value; /* `own`, or that of the argument of a macro which this is the parameter for */
+  struct value own;    /* VALUE_NONE while it is declared for the first time */
 };
 
 /* Zeroed: no names. */
 struct symbols {
   struct table table;
-  struct symbol *last;       /* of all names */
-  struct symbol *locals;     /* of the files being read, the newest first */
-  struct missed *missed;     /* names that were unknown */
-  struct declaration *ended; /* of values: to be reused */
+  struct symbol *globals;    /* the newest first */
+  struct symbol *locals;     /* those of what is being read, the newest first */
+  struct symbol *unused;     /* to be reused */
+  struct table missing;      /* names that were unknown, */
+  struct missed *missed;     /* the newest first */
+  struct declaration *ended; /* to be reused */
   size_t considered;         /* names considered for guesses */
-  size_t guessed;            /* guesses made for what is held */
-  size_t macro_count;        /* macros that are or were declared, */
-  size_t macro_calls;        /* their calls, */
-  size_t macro_words;        /* and the words examined for these */
-  int depth;                 /* include depth of the file being read */
+  size_t macros;             /* macros that are or were declared */
+  int depth;                 /* files included and macros called around what is being read */
 };
 
-/* A directive in skipped text, whose name is still to come. */
-struct naming {
-  int token; /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL, TOKEN_UNDEF; TOKEN_READ, which has several; 0: none */
-  struct span place;
-};
-
-/* Takes one token after another of such text. Returns the directive's token if this token is the name that it declares
- * or undeclares, else 0. #for counts as the #declare of its variable; #fopen and #fclose count as that of their
- * name. */
-int naming_next(struct naming *naming, int token, struct span place);
-
-/* Begin and end an included file. At its end, its locals are undeclared. */
+/* Begin and end an included file or a macro's text. At its end, its locals are undeclared. */
 void symbols_enter(struct symbols *symbols);
 void symbols_leave(struct symbols *symbols);
 
 /* What a name stands for. NULL if it is not declared, or if its declaration has only begun. */
-const struct symbol *symbol_find(const struct language *language, const char *name, size_t length);
-/* Whether #ifdef takes the name for declared: from the = of its declaration on, as in POV-Ray. An error if nobody
- * knows. */
-bool symbol_known(struct language *language, const struct name *name);
+const struct symbol *symbol_of(const struct language *language, const char *name, size_t length);
+struct value *symbol_find(const struct language *language, const char *name, size_t length); /* its value */
+/* Whether #ifdef takes the name for declared: from the = of its declaration on, as in POV-Ray. */
+bool symbol_known(const struct language *language, const struct name *name);
 
 /* Considers the declared names, the last one first, up to a limit. */
 void guess_symbols(struct guess *guess, struct language *language);
 
-/* The symbol of a name, if it is of that `kind`; else NULL, after reporting that `wanted` was expected. */
-const struct symbol *symbol_wanted(struct language *language, const struct name *name, enum symbol_kind kind,
-                                   const char *wanted);
+/* Reports that a value is not what is wanted, or that its name is not declared; once, if that name is BROKEN then. */
+void symbol_mistaken(struct language *language, const struct value *value, const char *wanted);
 /* At the end, reports the names that were unknown more than once. */
 void symbols_tell_missed(struct language *language);
-/* Reports that a name is not what is wanted. */
-void symbol_mistaken(struct language *language, struct span place, const struct symbol *symbol, const char *wanted);
 
-/* Begins a declaration; declarations may be nested. `local`: the place of its #local, or NULL. */
-struct declaration *declare_begin(struct language *language, struct span name, const struct span *local);
-/* Takes one token after another of text that is skipped here but read by POV-Ray: names declared there become
- * foreign. */
-void declare_passed(struct language *language, int token, struct span place, struct naming *naming);
-/* Declares such a name. */
-void declare_unseen(struct language *language, struct span place, const struct span *local);
-/* At the end of a file, reports the open declarations of names that are local to it. */
-void declare_left_open(struct language *language, struct span end);
-/* Ends a declaration. Returns the symbol to write to, or NULL if something was held: the symbol is then foreign. */
-struct symbol *declare_end(struct language *language, struct declaration *declaration);
+/* Begins a declaration of a name or of an array's element, whose `target` begins with the name's place, followed by the
+ * indices. Declarations may be nested. `local`: the place of its #local, or NULL. */
+struct declaration *declare_begin(struct language *language, struct value *target, const struct span *local);
+/* Begins another one of a name that has been declared just now. */
+void declare_again(struct language *language, struct value *value);
+/* Ends it: the name has that value. */
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value);
 void declare_broken(struct language *language, struct declaration *declaration); /* after an error */
-/* Declares a macro, which cannot be called. */
-void declare_macro(struct language *language, const struct name *name, struct macro *macro);
-/* Makes a name foreign: it stands for something else by now, or for nothing. */
-void declare_lost(struct language *language, const struct name *name);
+/* A #local of the file or macro being read, or a #declare, of a value that is no text's. */
+struct value *declare_local(struct language *language, const struct name *name);
+struct value *declare_global(struct language *language, const struct name *name);
+/* Makes a name of the macro that is being entered stand for an argument. */
+void declare_parameter(struct language *language, const struct name *name, const struct value *argument);
 void declare_gone(struct language *language, const struct name *name); /* #undef */
+/* At the end of a file, reports the open declarations of names that are local to it. */
+void declare_left_open(struct language *language, struct span end);
 
 /* Declares a number, such as the one by which a scene tells pscn from POV-Ray. */
 void declare_number(struct language *language, const char *name, size_t length, double number);

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "language/hints.h"
 #include "language/solver_statement.h"
 #include "language/tokens.h"
 
@@ -25,19 +24,43 @@ static void list_expected(const char *const expected[], int count, char *out, si
 {
   enum { MOST_LISTED = 10 };
   static const char *const in_values[] = {
-    "a number", "a vector", "x",   "y",     "z",    "pi",    "image_width", "image_height", "'('",    "'<'",
-    "'+'",      "'-'",      "rgb", "color", "rgbf", "rgbft", "srgb",        "srgbf",        "srgbft", "version"};
+    "a number", "a vector", "x",     "y",   "z",     "a constant", "a string", "'!'",  "'('",   "'<'",    "'+'",
+    "'-'",      "defined",  "array", "rgb", "color", "rgbf",       "rgbft",    "srgb", "srgbf", "srgbft", "a function"};
   static const char *const parts[] = {"red", "green", "blue", "filter"}; /* which may follow any colour */
-  static const char *const anywhere[] = {
-    "'+'",       "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", "#default", "the end of the text",
-    "deprecated"};
+  static const char *const anywhere[] = {"'+'",
+                                         "'-'",
+                                         "'*'",
+                                         "'/'",
+                                         "'.'",
+                                         "','",
+                                         "'['",
+                                         "'<'",
+                                         "'>'",
+                                         "'='",
+                                         "'?'",
+                                         "'&'",
+                                         "'|'",
+                                         "a comparison",
+                                         "#declare",
+                                         "#local",
+                                         "#version",
+                                         "#default",
+                                         "the end of the text",
+                                         "deprecated",
+                                         "a word of POV-Ray's",
+                                         "a shape",
+                                         "a word without effect"};
   const char *list[MOST_LISTED];
   int listed = 0;
-  const bool value = contains(expected, count, "image_width"), objects = contains(expected, count, "object");
-  const bool part = contains(expected, count, "filter");
+  const bool value = contains(expected, count, "a constant"), objects = contains(expected, count, "object");
+  const bool part = contains(expected, count, "filter"), compared = contains(expected, count, "a comparison");
   if (value) list[listed++] = "a value";
   for (int k = 0; k < count; k++) {
     if (value && (contains(in_values, COUNT(in_values), expected[k]) || strcmp(expected[k], "a name") == 0)) continue;
+    if (strcmp(expected[k], "'='") == 0 && !compared) {
+      list[listed++] = expected[k];
+      continue;
+    }
     if (count > 1 && contains(anywhere, COUNT(anywhere), expected[k])) continue;
     if (part && contains(parts, COUNT(parts), expected[k])) continue;
     if (objects && strcmp(expected[k], "solver") == 0) continue; /* parsed there, but never right */
@@ -67,14 +90,16 @@ static struct guess guess_meant(struct language *language, const char *word, siz
 /* How many of its characters are shown. */
 static int shown(const struct name *name) { return name->length < LONGEST_SHOWN ? (int)name->length : LONGEST_SHOWN; }
 
-/* Reports a declared name where none may stand, such as that of an object or a macro without `object` around it. */
-static void tell_declared(struct language *language, const struct name *name, const struct symbol *symbol, bool objects,
+/* Reports a declared name where none may stand, such as that of an object without `object` around it. */
+static void tell_declared(struct language *language, const struct name *name, const struct value *named, bool objects,
                           const char *list)
 {
-  if (objects && symbol->kind == SYMBOL_OBJECT)
+  struct value value = *named;
+  value.place = name->place;
+  value.named = symbol_find(language, name->text, name->length);
+  if (objects && value.kind == VALUE_OBJECT)
     language_error(language, name->place, "a declared object stands in object { %.*s }", shown(name), name->text);
-  else if (objects || symbol->kind == SYMBOL_FOREIGN || symbol->kind == SYMBOL_MACRO)
-    symbol_wanted(language, name, SYMBOL_OBJECT, "an object");
+  else if (objects || value.kind == VALUE_FOREIGN) symbol_mistaken(language, &value, "an object");
   else language_error(language, name->place, "unexpected name '%.*s'%s", shown(name), name->text, list);
 }
 
@@ -93,20 +118,32 @@ static bool same_place(struct span a, struct span b) { return span_begin(a) > 0 
 /* Whether a declaration begins with something that POV-Ray can declare and pscn cannot. */
 static bool begins_undeclarable(const struct language *language)
 {
+  const int token = language->tokens->last.token;
+  return language->declaration && (token == PSCN_TOKEN_CAMERA || token == PSCN_TOKEN_LIGHT_SOURCE);
+}
+
+/* Whether the token before it is a name that is unknown; or, before an opening parenthesis, no macro. Reports that. */
+static bool tell_previous(struct language *language)
+{
   const struct tokens *tokens = language->tokens;
-  const int token = tokens->last.token;
-  if (!language->declaration) return false;
-  if (token != PSCN_TOKEN_STRING) return token == PSCN_TOKEN_CAMERA || token == PSCN_TOKEN_LIGHT_SOURCE;
-  return span_begin(tokens->previous) > 0 && sources_name(language, tokens->previous).text[0] == '=';
+  if (!same_place(tokens->previous, tokens->word)) return false;
+  const struct name name = sources_name(language, tokens->previous);
+  const struct value *named = symbol_find(language, name.text, name.length);
+  if (named && tokens->last.token != '(') return false;
+  struct value value = named ? *named : (struct value){.kind = VALUE_NONE};
+  value.place = name.place;
+  value.named = named ? symbol_find(language, name.text, name.length) : NULL;
+  symbol_mistaken(language, &value, tokens->last.token == '(' ? "a macro" : "a value");
+  return true;
 }
 
 /* Reports a word that may not stand here, or that is unknown. */
 static void tell_word(struct language *language, const struct name *word, const char *const expected[], int count,
                       const char *list)
 {
-  const struct symbol *symbol = symbol_find(language, word->text, word->length);
-  if (symbol) {
-    tell_declared(language, word, symbol, contains(expected, count, "object"), list);
+  const struct value *named = symbol_find(language, word->text, word->length);
+  if (named) {
+    tell_declared(language, word, named, contains(expected, count, "object"), list);
     return;
   }
   const struct guess guess = guess_meant(language, word->text, word->length, expected, count);
@@ -165,7 +202,7 @@ void letters_error(struct language *language, struct span place)
   while (!((unsigned char)name.text[k] & 0x80)) k++;
   name_character(name.text + k, name.length - k, character, sizeof character);
   language_error(language, place, "%s: names have the letters a to z, A to Z, digits and _", character);
-  language->unknown = place;
+  language->unknown = language->letters = place;
 }
 
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count)
@@ -174,7 +211,7 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
   const struct span place = tokens->last.place;
   /* What follows a word just reported as unknown fits the word that was meant. */
   const bool follows = same_place(tokens->previous, language->unknown);
-  if (same_place(place, tokens->told) || follows || language->ended_early) return;
+  if (same_place(place, tokens->told) || follows || language_ended(language)) return;
   tokens->told = place;
   const struct name name = sources_name(language, place);
   if (name.length == 0 && tokens->depth > 0) {
@@ -185,18 +222,20 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
     language_error(language, place, "the items of a solver stand in braces: { %.*s ... }", shown(&name), name.text);
     return;
   }
-  if (tokens->last.token == PSCN_TOKEN_FOREIGN || tokens->last.token == PSCN_TOKEN_FOREIGN_SIGN) {
-    char hint[HINT_SIZE] = "";
-    if (!language_holds_enough(language)) hint_write(name.text, name.length, hint, sizeof hint);
-    language_foreign(language, place, "%.*s is POV-Ray, but pscn %s", shown(&name), name.text, hint);
+  language->idle = 0;
+  if (words_are_foreign(tokens->last.token)) {
+    language_refuses(language, place);
     return;
   }
   if (begins_undeclarable(language)) {
-    language_foreign(language, place, "%.*s cannot be declared in pscn; it stands where it is meant", shown(&name),
-                     name.text);
+    language_refuses(language, place);
     tokens->recovered = place; /* it does not begin a statement of its own */
     return;
   }
+  if (tell_previous(language)) return;
+  if (language->lenient && tokens->depth > 0 &&
+      span_begin(language->left_out_last) > span_begin(tokens->braces[tokens->depth - 1]))
+    return; /* of what was left out in this block, such as the parts of a pattern */
   char list[300] = "";
   const char *misplacement = misplaced(tokens, name.text);
   if (misplacement) snprintf(list, sizeof list, "%s", misplacement);

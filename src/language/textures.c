@@ -58,38 +58,39 @@ static const char *block_name(enum texture_block block)
   return block == TEXTURE_ALL ? "a texture" : block == TEXTURE_FINISH ? "a finish" : "a pigment";
 }
 
-static void apply_named(struct language *language, struct span place, const struct symbol *symbol, bool first)
+const char *texture_kind(const struct texture *texture) { return block_name(texture->block); }
+
+static void apply_named(struct language *language, const struct value *value, bool first)
 {
   struct texture *texture = language->texture;
-  if (!first) language_error(language, place, "a declared name stands first in %s", block_name(texture->block));
-  texture_apply(texture, symbol->texture);
+  if (!first) language_error(language, value->place, "a declared name stands first in %s", texture_kind(texture));
+  texture_apply(texture, value->texture);
 }
 
 /* A texture may begin with a declared texture, pigment or finish; a pigment or a finish with one of its own kind. */
-void texture_named(struct language *language, struct span place)
+void texture_named(struct language *language, const struct value *value)
 {
-  const struct name name = sources_name(language, place);
   struct texture *texture = language->texture;
   const bool first = texture->stage == STAGE_SETTINGS;
   texture->stage = STAGE_BODY;
-  const char *wanted = block_name(texture->block);
-  const struct symbol *symbol = symbol_wanted(language, &name, SYMBOL_TEXTURE, wanted);
-  if (!symbol) return;
-  if ((symbol->texture->block & ~texture->block) == 0) apply_named(language, place, symbol, first);
-  else symbol_mistaken(language, place, symbol, wanted);
+  if (value->kind == VALUE_TEXTURE && (value->texture->block & ~texture->block) == 0)
+    apply_named(language, value, first);
+  else symbol_mistaken(language, value, texture_kind(texture));
 }
 
 void pigment_value(struct language *language, const struct value *value)
 {
   struct texture *texture = language->texture;
-  const struct symbol *symbol = value->symbol;
   const enum stage stage = texture->stage;
   texture->stage = STAGE_BODY;
-  if (value->kind == VALUE_NAMED && symbol->kind == SYMBOL_TEXTURE && symbol->texture->block == TEXTURE_PIGMENT) {
-    apply_named(language, value->place, symbol, stage == STAGE_SETTINGS);
+  if (value->kind == VALUE_TEXTURE && value->texture->block == TEXTURE_PIGMENT) {
+    apply_named(language, value, stage == STAGE_SETTINGS);
     return;
   }
-  if (value->kind == VALUE_UNKNOWN) texture->doubtful = true;
+  if (value->kind >= VALUE_FOREIGN) {
+    symbol_mistaken(language, value, "a colour");
+    texture->doubtful = true;
+  }
   if (texture->doubtful) return;
   if (value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR) {
     language_error(language, value->place, "a pigment wants a colour: write rgb before this");
@@ -129,25 +130,25 @@ void finish_number(struct language *language, int part, const struct value *valu
   texture->set |= 1u << part;
 }
 
-/* A declared block is complete: what it does not set has the default. */
-void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture)
+struct value *value_of_texture(struct language *language, const struct texture *texture)
 {
-  struct symbol *symbol = declare_end(language, declaration);
-  language->layered = texture->block == TEXTURE_ALL ? declaration : NULL;
-  if (!symbol) return;
+  struct value *value = value_of(language, VALUE_TEXTURE, texture->place);
   struct texture *whole = language_alloc(language, sizeof *whole);
   *whole = *texture;
   whole->set = texture->block;
-  symbol->kind = SYMBOL_TEXTURE;
-  symbol->texture_kind = block_name(texture->block);
-  symbol->texture = whole;
+  value->texture = whole;
+  return value;
+}
+
+void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture)
+{
+  language->layered = declaration->to;
+  declare_value(language, declaration, value_last(language, value_of_texture(language, texture)));
 }
 
 void layer_begin(struct language *language, struct span place)
 {
-  struct declaration *declaration = language->layered;
-  declaration->outer = language->declaration;
-  language->declaration = declaration;
+  declare_again(language, language->layered);
   texture_begin(language, place, TEXTURE_ALL);
 }
 
@@ -158,6 +159,8 @@ void layer_end(struct language *language, struct span brace)
 
 void texture_set_default(struct language *language, const struct texture *texture)
 {
+  if (language->texture)
+    language_error(language, texture->place, "in POV-Ray, a #default within a texture ends with it");
   struct texture *whole = language_alloc(language, sizeof *whole);
   *whole = *language->texture_default;
   texture_apply(whole, texture);

@@ -41,15 +41,18 @@ void texture_apply(struct texture *to, const struct texture *from);
 /* Actions of the grammar, in the order of the text. Between a begin and its end they concern the innermost block. */
 void texture_begin(struct language *language, struct span place, enum texture_block block);
 struct texture *texture_end(struct language *language, struct span brace);
-void texture_named(struct language *language, struct span name);
+void texture_named(struct language *language, const struct value *value);
 void texture_merge(struct language *language, const struct texture *texture);
 void texture_moved(struct language *language); /* a transform, which does not change a plain colour */
 void pigment_value(struct language *language, const struct value *value);
 void finish_ambient(struct language *language, const struct value *value);
 void finish_number(struct language *language, int part, const struct value *value);
-void layer_begin(struct language *language,
-                 struct span place); /* one more layer of the texture declared last, which hides it */
-void layer_end(struct language *language, struct span brace);
+/* A texture as a value. A declared block is complete: what it does not set has the default. */
+struct value *value_of_texture(struct language *language, const struct texture *texture);
+const char *texture_kind(const struct texture *texture); /* "a texture", "a pigment", "a finish" */
+/* A declared texture, to which layers may be added. As what is rendered is opaque, the last one counts. */
 void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture);
+void layer_begin(struct language *language, struct span place);
+void layer_end(struct language *language, struct span brace);
 
 #endif

@@ -2,6 +2,7 @@
 #include "language/tokens.h"
 
 #include "language/directives.h"
+#include "language/functions.h"
 #include "language/macros.h"
 #include "language/syntax_errors.h"
 
@@ -40,12 +41,17 @@ static int solver_token(struct tokens *tokens, int token)
 /* The next token that is not skipped; 0 also where reading must end early. Most are the grammar's. */
 static int scan(struct language *language)
 {
-  const bool scene = !language->tokens->solver_only;
+  struct tokens *tokens = language->tokens;
+  const bool scene = !tokens->solver_only;
   for (;;) {
-    if (language->ended_early || diagnostics_full(language->diagnostics)) return 0;
-    const int token = pscn_scan_next(&language->sources->frame->scan);
-    if (scene && token > 0 && token < TOKEN_FIRST_PRIVATE) return token;
-    if (!directives_pass(language, token)) return token;
+    if (language_ended(language) || diagnostics_full(language->diagnostics)) return 0;
+    const int token = directives_scan(language);
+    if (scene && token > 0 && token < TOKEN_FIRST_PRIVATE) {
+      if (token != PSCN_TOKEN_WORD || tokens->naming || tokens->solver_part != SOLVER_OUTSIDE) return token;
+      if (!macro_called(language)) return token;
+    } else if (!directives_pass(language, token)) {
+      return token;
+    }
   }
 }
 
@@ -56,100 +62,225 @@ static void open_brace(struct language *language, struct span place)
   if (++tokens->depth > MAX_NESTING) language_limit(language, place, "blocks are nested more than 200 deep");
 }
 
-/* The tokens given before the text: which grammar it has, and for the text of a solver the word that it follows. */
-static int make_up(struct tokens *tokens)
-{
-  tokens->last.place = span_of(1, 1);
-  if (tokens->made_up++ == 0) return tokens->solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
-  return solver_token(tokens, PSCN_TOKEN_SOLVER);
-}
-
-/* Behind a directive of files: their names, and names read from them, stand for values that are unknown here. */
-static void pass_files(struct language *language, int directive)
-{
-  if (!language->declaration && !language->tokens->skipping) return;
-  struct naming naming = {0};
-  (void)naming_next(&naming, directive, sources_here(language));
-  while (naming.token != 0) {
-    const int token = pscn_scan_next(&language->sources->frame->scan);
-    const struct span place = sources_here(language);
-    if (naming_next(&naming, token, place) != 0) declare_unseen(language, place, NULL);
-  }
-}
-
-/* The token that stands in for one that is not the grammar's, which has been reported. */
+/* The token that stands in for a number that is none; for a directive, one that ends what is being read. */
 static int stand_in(struct language *language, int token)
 {
   struct tokens *tokens = language->tokens;
-  if (token == TOKEN_SECOND_POINT || token == TOKEN_OPEN_EXPONENT) { /* POV-Ray takes the e for part of the number */
-    const char *wrong = token == TOKEN_SECOND_POINT ? "a number has one point" : "the exponent of a number has digits";
-    if (!tokens->skipping) language_error(language, tokens->last.place, "%s", wrong);
-    return PSCN_TOKEN_NUMBER;
-  }
+  if (token >= TOKEN_FOREIGN_DIRECTIVE) return tokens->told = tokens->last.place, PSCN_TOKEN_REFUSED;
   if (token == TOKEN_OTHER_LETTERS) {
     if (!tokens->skipping) letters_error(language, tokens->last.place);
     return PSCN_TOKEN_WORD;
   }
-  if (token != TOKEN_FOREIGN_OPENER && token != TOKEN_FOR) directives_tell(language, token);
-  tokens->told = tokens->last.place;
-  if (token == TOKEN_FILE || token == TOKEN_READ) pass_files(language, token);
-  return PSCN_TOKEN_FOREIGN;
+  /* POV-Ray takes the e for part of the number. */
+  const char *wrong = token == TOKEN_SECOND_POINT ? "a number has one point" : "the exponent of a number has digits";
+  if (!tokens->skipping) language_error(language, tokens->last.place, "%s", wrong);
+  return PSCN_TOKEN_NUMBER;
 }
 
-int tokens_next(struct language *language)
+/* The token that begins a parser's text, if it has not been given yet; else 0. */
+static int begin(struct tokens *tokens)
+{
+  const int token = tokens->start[0];
+  if (token == 0) return 0;
+  tokens->start[0] = tokens->start[1];
+  tokens->start[1] = 0;
+  if (tokens->nested == 0) tokens->last.place = span_of(1, 1);
+  return token == PSCN_TOKEN_SOLVER ? solver_token(tokens, token) : token;
+}
+
+/* Whether a directive that is read by itself is complete, and this token is behind it. */
+static bool is_behind(const struct language *language, int token)
+{
+  const struct own *own = language->tokens->own;
+  if (!own) return false;
+  if (own->token == PSCN_TOKEN_VERSION)
+    return words_begin_item(token) || words_are_foreign(token) || token == '}' || token == ',';
+  if (own->token == PSCN_TOKEN_DEFAULT) return false;
+  return language->declaration == own->outer && language->declared > own->declared && token != ';' &&
+         !(language->layered && token == PSCN_TOKEN_TEXTURE);
+}
+
+/* Makes the scanner's token the last one. Returns it as it counts. */
+static int deliver(struct language *language, int token)
 {
   struct tokens *tokens = language->tokens;
   struct delivered *last = &tokens->last;
-  if (tokens->made_up < (tokens->solver_only ? 2 : 1)) return make_up(tokens);
-  if (last->again) {
-    last->again = false;
-    return last->token;
-  }
-  tokens->previous = last->place;
-  int token = scan(language);
-  last->place = sources_here(language);
   const struct frame *frame = language->sources->frame;
+  last->place = sources_here(language);
   if (token == 0) last->place = sources_span(frame, frame->source->length, frame->source->length);
   else if (token > TOKEN_FIRST_PRIVATE) token = stand_in(language, token);
   else if (is_number(token) && frame->scan.too_large) tell_too_large(language);
   if (tokens->solver_part != SOLVER_OUTSIDE || token == PSCN_TOKEN_SOLVER) token = solver_token(tokens, token);
   last->token = token;
   last->depth = tokens->depth;
-  const bool passed = language->declaration || tokens->skipping; /* possibly; a macro called elsewhere is an error */
-  if (token == PSCN_TOKEN_WORD && tokens->solver_part == SOLVER_OUTSIDE && passed) macro_called(language, last->place);
+  if (token == PSCN_TOKEN_WORD && !tokens->naming && tokens->solver_part == SOLVER_OUTSIDE) tokens->word = last->place;
+  if (token == PSCN_TOKEN_DECLARE || token == PSCN_TOKEN_LOCAL || token == PSCN_TOKEN_DEFINED) tokens->naming = true;
+  else if (token == PSCN_TOKEN_WORD || token == ')' || token == '=') tokens->naming = false;
   if (token == '{') open_brace(language, last->place);
   else if (token == '}' && tokens->depth > 0) tokens->depth--;
   return token;
 }
 
+/* Whether the last token is a directive that may stand here, which is not where a declaration's ; is missing. */
+static bool is_directive(const struct language *language)
+{
+  const struct tokens *tokens = language->tokens;
+  const int token = tokens->last.token;
+  const struct declaration *declaration = language->declaration;
+  if (token != PSCN_TOKEN_DECLARE && token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_VERSION &&
+      token != PSCN_TOKEN_DEFAULT)
+    return false;
+  return !declaration || tokens->depth > declaration->braces || language->sources->frame != declaration->frame;
+}
+
+/* Runs a parser of its own over a directive, whose token is the last one. The one behind it may be the next again. */
+static void read_directive(struct language *language)
+{
+  struct tokens *tokens = language->tokens;
+  const struct own *outer = tokens->own, own = {tokens->last.token, language->declaration, language->declared};
+  const int skipping = tokens->skipping;
+  if (tokens->nested == MAX_NESTING) {
+    language_limit(language, tokens->last.place, "declarations are nested more than 200 deep");
+    return;
+  }
+  tokens->last.again = true;
+  tokens->start[0] = PSCN_TOKEN_START_DIRECTIVE;
+  tokens->skipping = 0;
+  tokens->own = NULL; /* not for the directive's own word */
+  tokens->own_next = &own;
+  tokens->nested++;
+  const int result = pscn_parse(language);
+  tokens->own = outer;
+  if (result == 1 && !language->ended_early) (void)tokens_recover(language);
+  if (result == 2) language->ended_early = true;
+  tokens->nested--;
+  tokens->skipping = skipping;
+}
+
+int tokens_next(struct language *language)
+{
+  struct tokens *tokens = language->tokens;
+  struct delivered *last = &tokens->last;
+  int token = begin(tokens);
+  if (token != 0) return token;
+  const struct span previous = last->place;
+  for (bool again = last->again;; again = last->again) {
+    last->again = false;
+    token = again ? last->token : deliver(language, scan(language));
+    if (tokens->own_next) { /* this is the directive's own word */
+      tokens->own = tokens->own_next;
+      tokens->own_next = NULL;
+      return token;
+    }
+    if (!again) tokens->previous = previous;
+    if (is_behind(language, token)) {
+      last->again = true;
+      return 0;
+    }
+    if (!is_directive(language)) return token;
+    read_directive(language);
+  }
+}
+
+/* After an error in parentheses that a directive or a macro's name opened, finds their end, or where they cannot go
+ * on. */
+static void pass_parentheses(struct language *language, int open)
+{
+  const struct delivered *last = &language->tokens->last;
+  for (int token = last->token; token != 0 && token != ';' && token != '{' && token != '}';
+       token = tokens_next(language)) {
+    open += (token == '(') - (token == ')');
+    if (open == 0) return;
+  }
+}
+
+bool tokens_parse(struct language *language, int start, struct value **out)
+{
+  struct tokens *tokens = language->tokens;
+  const struct delivered last = tokens->last;
+  const enum solver_part solver_part = tokens->solver_part;
+  const int parentheses = tokens->parentheses, depth = tokens->depth;
+  const bool naming = tokens->naming;
+  const struct own *own = tokens->own;
+  *out = NULL;
+  if (tokens->nested == MAX_NESTING) {
+    language_limit(language, sources_here(language), "macros and conditions are nested more than 200 deep");
+    return false;
+  }
+  const size_t begin = language->sources->frame->scan.end;
+  const bool opens = start != PSCN_TOKEN_START_STRING && start != PSCN_TOKEN_START_INDICES;
+  if (opens && directives_scan(language) != '(') {
+    if (!language_ended(language)) language_error(language, sources_here(language), "a ( is wanted here");
+    pscn_scan_seek(&language->sources->frame->scan, begin);
+    return false;
+  }
+  pscn_scan_seek(&language->sources->frame->scan, begin);
+  tokens->nested++;
+  tokens->start[0] = start;
+  tokens->start[1] = 0;
+  tokens->own = NULL;
+  tokens->naming = tokens->last.again = false;
+  tokens->solver_part = SOLVER_OUTSIDE;
+  tokens->parentheses = 0;
+  const int result = pscn_parse(language);
+  *out = language->list;
+  language->list = NULL;
+  if (result == 2) language->ended_early = true;
+  if (result == 1) pass_parentheses(language, 1);
+  tokens->nested--;
+  tokens->naming = naming;
+  tokens->own = own;
+  tokens->solver_part = solver_part;
+  tokens->parentheses = parentheses;
+  tokens->depth = depth;
+  tokens->last = last;
+  return result == 0 && !language->ended_early;
+}
+
 /* ---- recovery ---- */
 
-static bool recover(struct language *language)
+/* Whether the next item of a block begins with the token, or its brace is here. */
+static bool begins_next(int token, int depth)
+{
+  if (token == '}') return depth > 0;
+  return depth == 0 ? words_begin_statement(token) : words_begin_item(token);
+}
+
+/* A random number is drawn also in what is left out, so that the next one is that of POV-Ray. */
+static void draw(struct language *language)
+{
+  struct value *list = NULL;
+  const struct span place = language->tokens->last.place;
+  if (language->diagnostics->error_count > 0 || !function_draws(language, place)) return;
+  if (tokens_parse(language, PSCN_TOKEN_START_ARGUMENTS, &list))
+    value_last(language, value_function(language, list, place, place));
+}
+
+/* `wrong`: the token where skipping begins may be that of an item. */
+static bool skip(struct language *language, bool wrong)
 {
   struct tokens *tokens = language->tokens;
   const struct delivered *last = &tokens->last;
   const int block = last->depth;
   const bool twice = span_begin(last->place) == span_begin(tokens->recovered);
   int parentheses = 0, before = 0;
-  struct naming naming = {0};
   tokens->recovered = last->place;
   tokens->last.again = false;
 
-  for (bool first = true;; first = false, before = last->token, tokens_next(language)) {
-    const int token = last->token;
+  int token = last->token;
+  for (bool first = true;; first = false, before = token, token = tokens_next(language)) {
     if (token == 0) return false;
+    if (token == PSCN_TOKEN_FUNCTION) draw(language);
     if (token == '(' && !first) parentheses++;
-    if (last->depth != block || parentheses > 0) declare_passed(language, token, last->place, &naming);
     if (parentheses > 0) { /* of a function of POV-Ray's, whose arguments may be anything */
       parentheses -= token == ')';
       continue;
     }
     /* A token that was refused here may begin the next item; one refused there too is dropped. */
-    if (last->depth == block && !(first && twice)) {
-      const bool begins = block == 0 ? words_begin_statement(token) : words_begin_item(token);
+    if (last->depth == block && !(first && (twice || !wrong))) {
       const bool in_value = before == '+' || before == '-' || before == '*' || before == '/' || before == ',';
-      const bool foreign = token == PSCN_TOKEN_FOREIGN && !first && !in_value;
-      if (begins || foreign || (token == '}' && block > 0)) {
+      const bool foreign = words_are_foreign(token) && !first && !in_value;
+      if (begins_next(token, block) || foreign) {
         tokens->last.again = true;
         return true;
       }
@@ -167,8 +298,38 @@ static bool recover(struct language *language)
 /* Skipped text may be full of what means nothing here, as a map of colours is. This is reported once. */
 bool tokens_recover(struct language *language)
 {
+  language->idle = 0;
   language->tokens->skipping = 1 + language->tokens->last.depth;
-  const bool more = recover(language);
+  const bool more = skip(language, true);
   language->tokens->skipping = 0;
   return more;
+}
+
+void tokens_pass(struct language *language)
+{
+  language->tokens->skipping = 1 + language->tokens->last.depth;
+  (void)skip(language, false);
+  language->tokens->skipping = 0;
+}
+
+struct span tokens_pass_block(struct language *language)
+{
+  struct tokens *tokens = language->tokens;
+  const struct delivered *last = &tokens->last;
+  const int block = last->depth;
+  if (tokens_next(language) != '{') {
+    language_error(language, last->place, "a { follows the name of a shape");
+    tokens->last.again = true;
+    return last->place;
+  }
+  tokens->skipping = 1 + block;
+  const struct span brace = last->place;
+  int token = '{';
+  while (token != 0 && !(token == '}' && last->depth == block + 1)) {
+    token = tokens_next(language);
+    if (token == PSCN_TOKEN_FUNCTION) draw(language);
+  }
+  if (token == 0) language_tell(language, brace, "this brace is not closed");
+  tokens->skipping = 0;
+  return last->place;
 }

@@ -15,16 +15,28 @@ struct delivered {
 /* Where in a solver statement the next token is. All words are plain there, except in a number's parentheses. */
 enum solver_part { SOLVER_OUTSIDE, SOLVER_NAME, SOLVER_BEHIND_NAME, SOLVER_BLOCK };
 
+/* A directive that a parser of its own reads, and what was there before it. */
+struct own {
+  int token;
+  const struct declaration *outer;
+  size_t declared;
+};
+
 /* Zeroed: no token given yet. */
 struct tokens {
-  bool solver_only; /* the text is that which follows `solver` */
-  int made_up;      /* tokens given before those of the text */
+  bool solver_only;           /* the text is that which follows `solver` */
+  int start[2];               /* tokens to be given before those of the text, the last one first; 0: none */
+  int nested;                 /* parsers within each other */
+  const struct own *own_next; /* that one before its own word has been given */
+  const struct own *own;      /* the directive being read, or NULL */
+  bool naming;                /* the next word is not that of a macro to be called */
   enum solver_part solver_part;
   int parentheses; /* open in the solver's block */
   int depth;       /* braces open */
   struct span braces[MAX_NESTING];
   struct delivered last;
   struct span previous;        /* that of the token before the last */
+  struct span word;            /* that of the last word that stands for something */
   int skipping;                /* in tokens_recover: 1 plus the braces open where it began */
   struct span recovered, told; /* where the last recovery began; what the last syntax error was about */
 };
@@ -32,8 +44,18 @@ struct tokens {
 /* The next token of the grammar, described by tokens->last. 0 at the end, and where reading must end early. */
 int tokens_next(struct language *language);
 
+/* Parses what `start` begins with another parser, from the next token on, and gives its values as a list, which the
+ * caller frees also after an error. An error has been reported; the text is then read from behind its parentheses on. */
+bool tokens_parse(struct language *language, int start, struct value **out);
+
 /* After a syntax error, skips to the next item of the block in which the error is, counting braces, or to the block's
  * closing brace. The token of the error counts too. False if the text has ended. */
 bool tokens_recover(struct language *language);
+
+/* Skips what belongs to the word just read, in the same way. */
+void tokens_pass(struct language *language);
+
+/* Skips a block in braces, which must follow. Returns its closing brace, or after an error where that is. */
+struct span tokens_pass_block(struct language *language);
 
 #endif

@@ -8,10 +8,14 @@
 
 #include "base/number.h"
 #include "language/settings.h"
+#include "language/arrays.h"
 #include "language/sources.h"
 #include "scene/gamma.h"
 
-static struct value *make(struct language *language, enum value_kind kind, struct span place)
+/* POV-Ray's, absolute: numbers nearer than that are equal. */
+#define EQUAL 1e-10
+
+struct value *value_of(struct language *language, enum value_kind kind, struct span place)
 {
   struct value *value = language->unused;
   if (value) language->unused = value->next;
@@ -28,6 +32,35 @@ struct value *value_last(struct language *language, struct value *value)
   return language->unused = value;
 }
 
+struct value *value_before(struct value *list, struct value *value)
+{
+  value->next = list;
+  return value;
+}
+
+struct value *value_reversed(struct value *list)
+{
+  struct value *reversed = NULL;
+  for (struct value *next; list; list = next) next = list->next, list->next = reversed, reversed = list;
+  return reversed;
+}
+
+void value_last_of_list(struct language *language, struct value *list)
+{
+  for (struct value *next; list; list = next) next = list->next, value_last(language, list);
+}
+
+void value_set(struct language *language, struct value *to, const struct value *value)
+{
+  struct array *copy = value->kind == VALUE_ARRAY ? array_copy(language, value->array) : NULL;
+  *to = *value;
+  to->named = to->next = NULL;
+  to->lacks = span_of(0, 0);
+  to->component = to->wide = to->bare = false;
+  to->open = to->kind == VALUE_VECTOR;
+  if (copy) to->array = copy;
+}
+
 static struct value *set(struct value *value, double x, double y, double z)
 {
   value->x[0] = x, value->x[1] = y, value->x[2] = z;
@@ -36,17 +69,17 @@ static struct value *set(struct value *value, double x, double y, double z)
 
 struct value *value_of_number(struct language *language, double x, struct span place)
 {
-  return set(make(language, VALUE_NUMBER, place), x, x, x);
+  return set(value_of(language, VALUE_NUMBER, place), x, x, x);
 }
 
 struct value *value_of_vector(struct language *language, const double x[3], struct span place)
 {
-  return set(make(language, VALUE_VECTOR, place), x[0], x[1], x[2]);
+  return set(value_of(language, VALUE_VECTOR, place), x[0], x[1], x[2]);
 }
 
 struct value *value_axis(struct language *language, int axis, struct span place)
 {
-  struct value *value = set(make(language, VALUE_VECTOR, place), axis == 0, axis == 1, axis == 2);
+  struct value *value = set(value_of(language, VALUE_VECTOR, place), axis == 0, axis == 1, axis == 2);
   value->open = true;
   return value;
 }
@@ -55,6 +88,7 @@ struct value *value_axis(struct language *language, int axis, struct span place)
 static struct value *value_moved(struct value *value, struct span place)
 {
   value->place = place;
+  value->named = NULL;
   return value;
 }
 
@@ -70,32 +104,41 @@ static struct value *become_unknown(struct value *value, struct span place)
   return value;
 }
 
-/* Names of objects and textures are distinguished where the value is used, because a pigment may be named where a
- * colour may be. */
+/* Errors about a name that does not stand for what is wanted come where the value is used. */
 struct value *value_named(struct language *language, struct span place)
 {
   const struct name name = sources_name(language, place);
-  struct value *value = make(language, VALUE_NAMED, place);
-  const struct symbol *symbol = symbol_find(language, name.text, name.length);
-  if (symbol && (symbol->kind == SYMBOL_OBJECT || symbol->kind == SYMBOL_TEXTURE)) {
-    value->symbol = symbol;
-    return set(value, 1, 1, 1);
-  }
-  if (!symbol || symbol->kind != SYMBOL_VALUE) {
-    symbol_wanted(language, &name, SYMBOL_VALUE, "a value");
-    return become_unknown(value, place);
-  }
-  *value = symbol->value;
-  value_placed(value, place);
-  value->open = value->kind == VALUE_VECTOR;
+  struct value *value = value_of(language, VALUE_NONE, place);
+  const struct symbol *symbol = symbol_of(language, name.text, name.length);
+  const bool told = language->letters.ends == place.ends; /* for its letters */
+  if (!symbol) return told ? become_unknown(value, place) : value;
+  *value = *symbol->value;
+  value->place = place;
+  value->named = symbol->value;
+  value->depth = symbol->depth;
+  if (value->kind != VALUE_FOREIGN && span_begin(value->lacks) > 0) language_left_out(language, value->lacks);
   return value;
+}
+
+struct value *value_element(struct language *language, struct value *array, struct value *indices, struct span place)
+{
+  array->next = value_reversed(indices);
+  struct value *element = array_element(language, array, array);
+  value_last_of_list(language, array->next);
+  if (!element) return become_unknown(array, place);
+  const int depth = array->depth;
+  *array = *element;
+  array->place = place;
+  array->named = element;
+  array->depth = depth;
+  return array;
 }
 
 /* Whether the value can be computed with. If not, this has been reported. */
 static bool usable(struct language *language, const struct value *a, const char *wanted)
 {
-  if (a->kind == VALUE_NAMED) symbol_mistaken(language, a->place, a->symbol, wanted);
-  return a->kind != VALUE_NAMED && a->kind != VALUE_UNKNOWN;
+  if (a->kind > VALUE_COLOUR) symbol_mistaken(language, a, wanted);
+  return a->kind <= VALUE_COLOUR;
 }
 
 static double operate(char op, double p, double q)
@@ -177,6 +220,72 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
   return a;
 }
 
+static bool is_true(double x) { return fabs(x) > EQUAL; }
+
+static double compare(int op, double p, double q)
+{
+  switch (op) {
+  case '<': return p < q;
+  case '>': return p > q;
+  case '=': return !is_true(p - q);
+  case '!': return is_true(p - q);
+  case '[': return p < q || !is_true(p - q);
+  case ']': return p > q || !is_true(p - q);
+  case '&': return is_true(p) && is_true(q);
+  default: return is_true(p) || is_true(q);
+  }
+}
+
+int comparison_at(const struct language *language, struct span place)
+{
+  const char sign = sources_name(language, place).text[0];
+  return sign == '<' ? '[' : sign == '>' ? ']' : sign;
+}
+
+struct value *value_compared(struct language *language, int op, struct value *a, struct value *b)
+{
+  const struct span place = span_join(a->place, b->place);
+  value_last(language, b);
+  const bool a_usable = usable(language, a, "a number");
+  if (!usable(language, b, "a number") || !a_usable) return become_unknown(a, place);
+  if (b->kind > a->kind) a->kind = b->kind;
+  for (int k = 0; k < 3; k++) a->x[k] = compare(op, a->x[k], b->x[k]);
+  return value_placed(a, place);
+}
+
+struct value *value_not(struct language *language, struct value *a, struct span place)
+{
+  if (!usable(language, a, "a number")) return become_unknown(a, place);
+  return value_placed(set(a, !is_true(a->x[0]), !is_true(a->x[1]), !is_true(a->x[2])), place);
+}
+
+static bool is_chosen(const struct value *condition) { return is_true(condition->x[0]); }
+
+void choice_begin(struct language *language, const struct value *condition)
+{
+  double x;
+  if (!value_to_number(language, condition, &x)) become_unknown((struct value *)condition, condition->place);
+  language->idle += !is_chosen(condition);
+}
+
+void choice_else(struct language *language, const struct value *condition)
+{
+  language->idle += is_chosen(condition) ? 1 : -1;
+}
+
+struct value *choice_end(struct language *language, struct value *condition, struct value *a, struct value *b)
+{
+  const bool first = is_chosen(condition);
+  language->idle -= first;
+  struct value *chosen = first ? a : b;
+  const struct span place = span_join(condition->place, b->place);
+  value_last(language, first ? b : a);
+  value_last(language, condition);
+  chosen->place = place;
+  chosen->named = NULL;
+  return chosen;
+}
+
 struct value *value_negative(struct language *language, struct value *a, struct span place)
 {
   if (!usable(language, a, "a value")) return become_unknown(a, place);
@@ -250,7 +359,7 @@ struct value *value_part(struct language *language, struct value *colour, int pa
                          struct span place)
 {
   double x;
-  if (!colour) colour = make(language, VALUE_COLOUR, place);
+  if (!colour) colour = value_of(language, VALUE_COLOUR, place);
   value_last(language, value);
   if (colour->kind == VALUE_NUMBER || colour->kind == VALUE_VECTOR) {
     language_error(
@@ -294,24 +403,9 @@ struct value *value_of_parts(struct language *language, struct value *x, struct 
   return value_placed(x, place);
 }
 
-/* Whether it reads as two numbers, the second one signed: "1 -2". */
-static bool seems_two(const struct language *language, const struct value *value)
-{
-  const struct name text = sources_name(language, value->place);
-  for (size_t k = 1; k + 1 < text.length; k++) {
-    const char sign = text.text[k], before = text.text[k - 1], behind = text.text[k + 1];
-    if ((sign == '-' || sign == '+') && (before == ' ' || before == '\t') && behind != ' ') return true;
-  }
-  return false;
-}
-
 struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place)
 {
-  const struct value *sum = seems_two(language, x) ? x : seems_two(language, y) ? y : NULL;
-  if (sum)
-    language_foreign(language, sum->place,
-                     "this is one part of the vector, which has two; write a comma before the sign");
-  else language_foreign(language, place, "vectors of two parts are POV-Ray, but pscn has those of three");
+  language_refuses(language, place);
   value_last(language, y);
   return become_unknown(x, place);
 }
@@ -348,14 +442,13 @@ void value_to_colour(struct language *language, const struct value *a, double ou
 
 void value_to_opaque(struct language *language, const struct value *a, double out[3])
 {
-  if (a->transparent & TRANSPARENT_SAID) {
-    language_foreign(language, a->place, "this colour is transparent, and what pscn renders is not");
-    return;
-  }
-  if (a->transparent || (a->kind == VALUE_NUMBER && a->x[0] != 0)) {
-    language_foreign(language, a->place,
-                     "a number alone or after color is a transparent colour in POV-Ray; write rgb before it");
-    return;
+  const bool number = !(a->transparent & TRANSPARENT_SAID) && a->kind == VALUE_NUMBER && a->x[0] != 0;
+  if (a->transparent || number) {
+    static const char what[] = "a transparent colour";
+    language_lacks(language, a->place, &(struct name){a->place, what, sizeof what - 1},
+                   a->transparent & TRANSPARENT_SAID
+                     ? "what is rendered is opaque"
+                     : "a number alone or after color is one in POV-Ray, write rgb before it");
   }
   value_to_colour(language, a, out);
 }

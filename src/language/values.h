@@ -7,10 +7,13 @@
 
 /* Values are made in the order in which the grammar meets them. A result takes the memory of its first operand; the
  * other operands must not be used afterwards. */
+struct value *value_of(struct language *language, enum value_kind kind, struct span place);
 struct value *value_of_number(struct language *language, double x, struct span place);
 struct value *value_of_vector(struct language *language, const double x[3], struct span place);
 struct value *value_axis(struct language *language, int axis, struct span place);
 struct value *value_named(struct language *language, struct span name);
+/* An element of that array; `indices`: a list, the last one first, which is used up. */
+struct value *value_element(struct language *language, struct value *array, struct value *indices, struct span place);
 /* Refuses a vector of two parts. */
 struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place);
 struct value *value_of_parts(struct language *language, struct value *x, struct value *y, struct value *z,
@@ -18,6 +21,15 @@ struct value *value_of_parts(struct language *language, struct value *x, struct 
 /* The same value at another place, no longer marked as a component, open or wide. */
 struct value *value_placed(struct value *value, struct span place);
 struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
+/* Comparisons, of numbers or part by part, and & and |, where what is nearer to 0 than 1e-10 is false. `op`: a sign;
+ * or of two signs that at the place: [, ] or ! for <=, >= or !=. */
+int comparison_at(const struct language *language, struct span place);
+struct value *value_compared(struct language *language, int op, struct value *a, struct value *b);
+struct value *value_not(struct language *language, struct value *a, struct span place);
+/* At the ?, at the : and at the end of a choice: errors in the branch that is not chosen do not count. */
+void choice_begin(struct language *language, const struct value *condition);
+void choice_else(struct language *language, const struct value *condition);
+struct value *choice_end(struct language *language, struct value *condition, struct value *a, struct value *b);
 struct value *value_negative(struct language *language, struct value *a, struct span place);
 struct value *value_positive(struct language *language, struct value *a, struct span place);
 /* A value in parentheses, which its neighbours do not affect. */
@@ -38,6 +50,12 @@ struct value *value_bare_part(struct language *language, struct value *colour, i
 /* A colour, black if NULL, with one part given by name: 0 red, 1 green, 2 blue, 3 filter or transmit. */
 struct value *value_part(struct language *language, struct value *colour, int part, struct value *value,
                          struct span place);
+/* Adds a value before a list; the list in the order of the text; and the end of its use. */
+struct value *value_before(struct value *list, struct value *value);
+struct value *value_reversed(struct value *list);
+void value_last_of_list(struct language *language, struct value *list);
+/* Gives a name or an element the value. Arrays are copied. */
+void value_set(struct language *language, struct value *to, const struct value *value);
 /* A complete value, about to be used. It can be read until the next one is made. */
 struct value *value_last(struct language *language, struct value *value);
 

@@ -12,6 +12,7 @@
 struct keyword {
   const char *name;
   int token;
+  const char *instead; /* of one that pscn lacks: what it has, or "" */
 };
 
 /* Words that begin with one letter. */
@@ -21,39 +22,40 @@ struct initial {
 };
 
 /* Made by CMake. WORDS, sorted: the tokens of the grammar that are words, other spellings of them, and the other words
- * that POV-Ray 3.7 reserves (grammar/povray.txt), which are FOREIGN. INITIALS: the letters, and an end. */
+ * that POV-Ray 3.7 reserves (grammar/povray.txt). INITIALS: the letters, and an end. */
 #include "language/word_tables.h"
 
-static const struct keyword DIRECTIVES[] = {{"declare", PSCN_TOKEN_DECLARE},
-                                            {"default", PSCN_TOKEN_DEFAULT},
-                                            {"else", TOKEN_ELSE},
-                                            {"end", TOKEN_ENDIF},
-                                            {"ifdef", TOKEN_IFDEF},
-                                            {"ifndef", TOKEN_IFNDEF},
-                                            {"include", TOKEN_INCLUDE},
-                                            {"local", PSCN_TOKEN_LOCAL},
-                                            {"version", PSCN_TOKEN_VERSION}};
-
-/* POV-Ray 3.7's other directives. */
-static const struct keyword FOREIGN_DIRECTIVES[] = {{"break", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"case", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"debug", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"elseif", TOKEN_ELSEIF},
-                                                    {"error", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"fclose", TOKEN_FILE},
-                                                    {"fopen", TOKEN_FILE},
-                                                    {"for", TOKEN_FOR},
-                                                    {"if", TOKEN_FOREIGN_OPENER},
-                                                    {"macro", TOKEN_MACRO},
-                                                    {"range", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"read", TOKEN_READ},
-                                                    {"render", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"statistics", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"switch", TOKEN_FOREIGN_OPENER},
-                                                    {"undef", TOKEN_UNDEF},
-                                                    {"warning", TOKEN_FOREIGN_DIRECTIVE},
-                                                    {"while", TOKEN_FOREIGN_OPENER},
-                                                    {"write", TOKEN_FOREIGN_DIRECTIVE}};
+static const struct {
+  const char *name;
+  int token;
+} DIRECTIVES[] = {{"break", TOKEN_BREAK},
+                  {"case", TOKEN_CASE},
+                  {"debug", TOKEN_DEBUG},
+                  {"declare", PSCN_TOKEN_DECLARE},
+                  {"default", PSCN_TOKEN_DEFAULT},
+                  {"else", TOKEN_ELSE},
+                  {"elseif", TOKEN_ELSEIF},
+                  {"end", TOKEN_END},
+                  {"error", TOKEN_ERROR},
+                  {"fclose", TOKEN_FOREIGN_DIRECTIVE},
+                  {"fopen", TOKEN_FOREIGN_DIRECTIVE},
+                  {"for", TOKEN_FOR},
+                  {"if", TOKEN_IF},
+                  {"ifdef", TOKEN_IFDEF},
+                  {"ifndef", TOKEN_IFNDEF},
+                  {"include", TOKEN_INCLUDE},
+                  {"local", PSCN_TOKEN_LOCAL},
+                  {"macro", TOKEN_MACRO},
+                  {"range", TOKEN_RANGE},
+                  {"read", TOKEN_FOREIGN_DIRECTIVE},
+                  {"render", TOKEN_DEBUG},
+                  {"statistics", TOKEN_DEBUG},
+                  {"switch", TOKEN_SWITCH},
+                  {"undef", TOKEN_UNDEF},
+                  {"version", PSCN_TOKEN_VERSION},
+                  {"warning", TOKEN_WARNING},
+                  {"while", TOKEN_WHILE},
+                  {"write", TOKEN_FOREIGN_DIRECTIVE}};
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
@@ -80,27 +82,32 @@ static int compare_row(const void *sought, const void *row)
   bsearch(&(struct sought){word, length}, table, COUNT(table), sizeof *(table), compare_row)
 
 /* Initial and length distinguish most names from the words. */
-int words_token(const char *word, size_t length)
+static const struct keyword *find_word(const char *word, size_t length)
 {
-  if (word[0] < 'a') return PSCN_TOKEN_WORD; /* no word of the language begins with a capital */
+  if (word[0] < 'a') return NULL; /* no word of the language begins with a capital */
   const struct initial *initial = &INITIALS[word[0] - 'a'];
-  if (length > 31 || (initial->lengths >> length & 1) == 0) return PSCN_TOKEN_WORD;
+  if (length > 31 || (initial->lengths >> length & 1) == 0) return NULL;
   size_t begin = initial[0].begin, end = initial[1].begin;
   while (begin < end) {
     const size_t middle = (begin + end) / 2;
     const int order = words_compare(word, length, WORDS[middle].name);
-    if (order == 0) return WORDS[middle].token;
+    if (order == 0) return &WORDS[middle];
     if (order < 0) end = middle;
     else begin = middle + 1;
   }
-  return PSCN_TOKEN_WORD;
+  return NULL;
 }
 
-bool words_declared(const char *word, size_t length)
+int words_token(const char *word, size_t length)
 {
-  static const char *const names[] = {"clock_delta", "final_clock",   "final_frame",   "frame_number",   "image_height",
-                                      "image_width", "initial_clock", "initial_frame", "input_file_name"};
-  return FIND(word, length, names) != NULL;
+  const struct keyword *found = find_word(word, length);
+  return found ? found->token : PSCN_TOKEN_WORD;
+}
+
+const char *words_instead(const char *word, size_t length)
+{
+  const struct keyword *found = find_word(word, length);
+  return found ? found->instead : "";
 }
 
 const char *words_directive(const char *text, size_t *length)
@@ -114,9 +121,10 @@ const char *words_directive(const char *text, size_t *length)
 int words_directive_token(const char *text, size_t length)
 {
   const char *name = words_directive(text, &length);
-  const struct keyword *found = FIND(name, length, DIRECTIVES);
-  if (!found) found = FIND(name, length, FOREIGN_DIRECTIVES);
-  return found ? found->token : TOKEN_UNKNOWN_DIRECTIVE;
+  const char *const *found = FIND(name, length, DIRECTIVES);
+  for (size_t k = 0; found && k < COUNT(DIRECTIVES); k++)
+    if (DIRECTIVES[k].name == *found) return DIRECTIVES[k].token;
+  return TOKEN_UNKNOWN_DIRECTIVE;
 }
 
 static bool is_one_of(int token, const int tokens[], size_t count)
@@ -135,21 +143,26 @@ bool words_begin_statement(int token)
   return is_one_of(token, statements, COUNT(statements));
 }
 
+bool words_are_foreign(int token)
+{
+  return token == PSCN_TOKEN_FOREIGN || token == PSCN_TOKEN_SHAPE || token == PSCN_TOKEN_REFUSED ||
+         token == PSCN_TOKEN_IGNORED;
+}
+
 bool words_begin_item(int token)
 {
   static const int in_values[] = {
-    PSCN_TOKEN_WORD,        PSCN_TOKEN_NUMBER, PSCN_TOKEN_POINT,  PSCN_TOKEN_STRING,       PSCN_TOKEN_COLOR,
-    PSCN_TOKEN_RGB,         PSCN_TOKEN_RED,    PSCN_TOKEN_GREEN,  PSCN_TOKEN_BLUE,         PSCN_TOKEN_X,
-    PSCN_TOKEN_Y,           PSCN_TOKEN_Z,      PSCN_TOKEN_PI,     PSCN_TOKEN_IMAGE_WIDTH,  PSCN_TOKEN_IMAGE_HEIGHT,
-    PSCN_TOKEN_RGBF,        PSCN_TOKEN_RGBFT,  PSCN_TOKEN_FILTER, PSCN_TOKEN_VERSION_WORD, PSCN_TOKEN_DEPRECATED,
-    PSCN_TOKEN_ONCE,        PSCN_TOKEN_SRGB,   PSCN_TOKEN_SRGBF,  PSCN_TOKEN_SRGBFT,       PSCN_TOKEN_FOREIGN,
-    PSCN_TOKEN_FOREIGN_SIGN};
-  return token > 255 && !is_one_of(token, in_values, COUNT(in_values));
+    PSCN_TOKEN_WORD,     PSCN_TOKEN_NUMBER,     PSCN_TOKEN_POINT,   PSCN_TOKEN_STRING,     PSCN_TOKEN_COLOR,
+    PSCN_TOKEN_RGB,      PSCN_TOKEN_RED,        PSCN_TOKEN_GREEN,   PSCN_TOKEN_BLUE,       PSCN_TOKEN_X,
+    PSCN_TOKEN_Y,        PSCN_TOKEN_Z,          PSCN_TOKEN_RGBF,    PSCN_TOKEN_RGBFT,      PSCN_TOKEN_FILTER,
+    PSCN_TOKEN_CONSTANT, PSCN_TOKEN_FUNCTION,   PSCN_TOKEN_DEFINED, PSCN_TOKEN_DEPRECATED, PSCN_TOKEN_ONCE,
+    PSCN_TOKEN_ARRAY,    PSCN_TOKEN_COMPARISON, PSCN_TOKEN_SRGB,    PSCN_TOKEN_SRGBF,      PSCN_TOKEN_SRGBFT};
+  return token > 255 && !words_are_foreign(token) && !is_one_of(token, in_values, COUNT(in_values));
 }
 
 static enum words_kind kind_of(int token)
 {
-  if (token == PSCN_TOKEN_FOREIGN) return WORDS_FOREIGN;
+  if (words_are_foreign(token)) return WORDS_FOREIGN;
   if (words_begin_statement(token)) return WORDS_STATEMENTS;
   return words_begin_item(token) ? WORDS_ITEMS : WORDS_VALUES;
 }
@@ -218,7 +231,7 @@ void guess_consider(struct guess *guess, const char *candidate, size_t length)
 void guess_keywords(struct guess *guess)
 {
   for (size_t k = 0; k < COUNT(WORDS); k++)
-    if (WORDS[k].token != PSCN_TOKEN_FOREIGN) guess_consider(guess, WORDS[k].name, strlen(WORDS[k].name));
+    if (!words_are_foreign(WORDS[k].token)) guess_consider(guess, WORDS[k].name, strlen(WORDS[k].name));
 }
 
 void guess_directives(struct guess *guess)

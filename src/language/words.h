@@ -9,9 +9,8 @@
 int words_token(const char *word, size_t length);
 int words_directive_token(const char *text, size_t length);
 
-/* Whether POV-Ray declares that name before it reads a scene. Two of them are words here. Nobody declares the others,
- * but a condition on them must hold. */
-bool words_declared(const char *word, size_t length);
+/* Of a word of POV-Ray's that pscn lacks: what pscn has instead, or "". */
+const char *words_instead(const char *word, size_t length);
 
 /* The name of a directive, behind its # and blanks if the text has them. *length, that of the text, becomes that of the
  * name. */
@@ -20,6 +19,8 @@ const char *words_directive(const char *text, size_t *length);
 /* Whether a token begins a statement; or an item of a block, not a value. */
 bool words_begin_statement(int token);
 bool words_begin_item(int token);
+/* Whether a token is a word of POV-Ray's that is not ours. */
+bool words_are_foreign(int token);
 
 /* All words of a kind, from 0 on; NULL behind the last. The kinds: those that begin a statement, other words of the
  * language, names of values, directives without their #, and POV-Ray's words that are not ours. */

@@ -19,7 +19,8 @@
 #include "language/language.h"
 #include "scene/dump.h"
 
-static const struct language_settings SETTINGS = {.image_width = 800, .image_height = 600, .tolerance = NAN};
+static const struct language_settings SETTINGS = {
+  .image_width = 800, .image_height = 600, .tolerance = NAN, .max_work = 200000};
 
 static void tell(void *context, const char *text, size_t length)
 {

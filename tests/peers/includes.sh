@@ -43,15 +43,14 @@ documented read "${read[@]}"
 documented 'refused, for they put things into the scene' "${refused[@]}"
 
 # If used, each says what it is made of, and where that is.
-used() { # FILE LINE WORD
+used() { # FILE LINE NAME LIBRARY WORD
   scene "#include \"$1.inc\"" "$2" >used.pscn
   "$PSCN" dump used.pscn >out 2>said && fail "$2: exit 0"
-  grep -Eq "^used.pscn:4:[0-9]+: error: '$3' is declared with what pscn has not, or within it" said || fail "$2: not told where it is used"
-  grep -Eq "/$4.inc:[0-9]+:[0-9]+: error: $5" said || fail "$2: not told what it is"
+  grep -Eq "^used.pscn:4:[0-9]+: error: '$3' is declared with '$5' \([^ ]*/$4.inc:[0-9]+\), which is not supported" said ||
+    { fail "$2: not told"; cat said; }
 }
 used stones '#default { texture { T_Stone10 } }' T_Stone10 stones1 granite
 used shapes 'object { Disk_X scale 2 }' Disk_X shapes_old cylinder
 used woods '#declare Mine = texture { T_Wood1 } #default { texture { Mine } }' Mine woods wood
-used glass '#default { texture { T_Glass4 } }' T_Glass4 glass_old 'this colour is transparent'
 used math 'camera { angle sind(30) }' sind math function
 exit $failed
