@@ -43,14 +43,6 @@ pscn=$(command -v pscn)
 (PATH=empty; try "$pscn" chart "$scene" $small --no-peers --quiet -o out3)
 ls out3
 
-# A disk that fills while the page or the numbers are written, whichever is larger. The old results stay, and nothing
-# else.
-full=$((($(stat -c %s out3/chart.csv) + $(stat -c %s out3/chart.html)) / 2048))
-sum=$(cat out3/chart.* | cksum)
-(ulimit -f $full && PATH=empty && try "$pscn" chart "$scene" $small --no-peers --quiet -o out3) 2>&1 | grep -v gnuplot | sed 's/chart.csv/chart.html/'
-[ "$sum" = "$(cat out3/chart.* | cksum)" ] || echo "old results are lost"
-ls -A out3
-
 # Nothing to hit, in an empty scene and beside a patch, where the paper's form may see hits. This is reported; there is
 # no front, no figure, no peer called a failure, and no error.
 echo 'background { rgb 0 }' >nothing.pscn
