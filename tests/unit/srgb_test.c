@@ -5,9 +5,8 @@
 
 #include "cmocka_test.h"
 
-static void known_values(void **state)
+TEST(known_values)
 {
-  (void)state;
   /* IEC 61966-2-1: the ends, the linear part, and middle grey within the standard's own precision. */
   assert_true(srgb_encode(0) == 0 && fabs(srgb_encode(1) - 1) < 1e-15);
   assert_true(fabs(srgb_encode(0.001) - 0.01292) < 1e-15);
@@ -16,9 +15,8 @@ static void known_values(void **state)
   assert_true(fabs(srgb_decode(srgb_encode(7.5)) - 7.5) < 1e-14);
 }
 
-static void outside_is_clipped(void **state)
+TEST(outside_is_clipped)
 {
-  (void)state;
   struct srgb_table table;
   srgb_table_fill(&table);
   const float low[] = {-1.0f, -INFINITY, NAN, -0.0f}, high[] = {1.5f, INFINITY};
@@ -36,9 +34,8 @@ static void outside_is_clipped(void **state)
   }
 }
 
-static void every_code_survives(void **state)
+TEST(every_code_survives)
 {
-  (void)state;
   struct srgb_table table;
   srgb_table_fill(&table);
   for (int k = 0; k <= 255; k++) {
@@ -53,9 +50,8 @@ static void every_code_survives(void **state)
 
 /* The table returns the formula's rounded value, except that a code half way between two is rounded up although the float
  * that holds its light may be a little less. */
-static void table_is_the_formula(void **state)
+TEST(table_is_the_formula)
 {
-  (void)state;
   struct srgb_table table;
   srgb_table_fill(&table);
   for (int k = 0; k < 255; k++) {
@@ -65,15 +61,4 @@ static void table_is_the_formula(void **state)
     assert_true(fabs(srgb_encode((double)bound) * 255 - (k + 0.5)) < 1e-4);
     for (int s = 0; s < 4; s++) assert_int_equal(srgb_encode8(&table, samples[s]), expected[s]);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(known_values),
-    cmocka_unit_test(outside_is_clipped),
-    cmocka_unit_test(every_code_survives),
-    cmocka_unit_test(table_is_the_formula),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
