@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "check/measure.h"
-#include "page/process.h"
 
 /* Measures a row, and makes its files before the next row takes its picture's place. */
 static enum status measure_row(struct check *check, size_t steps)
@@ -32,10 +31,6 @@ static enum status measure_series(struct check *check)
 static enum status measure_as_written(struct check *check)
 {
   listener_tell(check->listener, TOLD_PROGRESS, "POV-Ray: as written");
-  if (check->request->own_text && !process_can_confine())
-    listener_tell(check->listener, TOLD_WARNING,
-                  "this system cannot keep the scene's own text from writing files: it "
-                  "runs with all your rights");
   const enum status status = measure_row(check, 0);
   if (status == STATUS_OK && check->warnings.length > 0)
     listener_tell(check->listener, TOLD_PROGRESS, "%s", check->warnings.text);

@@ -1,9 +1,9 @@
 /* Compares pscn with POV-Ray on one scene: both render it, and the differences are measured.
  *
  * Our picture is rendered once. Each row is one picture by POV-Ray to compare with it: first the scene as written, then
- * with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n flatness 0). POV-Ray reads the
- * canonical text of the scene (scene/dump.h), which is what we understood; it reads the scene's own text only on
- * request.
+ * with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n flatness 0). For the first one POV-Ray
+ * reads the scene's file, for the others the canonical text of the scene (scene/dump.h), which is what we understood.
+ * That text is also in the place of the file if this cannot be read again or could read or write files itself.
  */
 #ifndef PSCN_CHECK_CHECK_H
 #define PSCN_CHECK_CHECK_H
@@ -29,7 +29,7 @@ struct check_request {
   size_t option_count;
   double timeout;             /* seconds that each run may take */
   size_t memory;              /* bytes that each run may take */
-  bool own_text;              /* the first row uses the scene's own text, read again from `path` */
+  const char *dumped;         /* why the first row is of the dump, too; NULL: it is of the file, read again */
   const char *const *folders; /* searched for the files that it includes; those of language_settings */
   size_t steps;               /* the last n; 0: only as written */
   size_t grid;                /* distances are compared at every grid-th pixel of every grid-th row; 0: none */

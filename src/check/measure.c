@@ -208,15 +208,33 @@ done:
 
 /* ---- rows ---- */
 
+/* Renders the file as written, or if that must not be the dump. */
+static enum status render_first(struct check *check, struct povray_picture *out)
+{
+  const struct check_request *request = check->request;
+  char word[POVRAY_WORD_SIZE] = "";
+  if (request->dumped != NULL) {
+    snprintf(check->dumped, sizeof check->dumped, "%s", request->dumped);
+  } else {
+    const enum status status = povray_render_file(&check->povray, request->path, request->folders, word, out);
+    if (status == STATUS_INPUT)
+      listener_tell(check->listener, TOLD_DETAIL, "With --dump POV-Ray reads what pscn understood of the scene.");
+    if (status != STATUS_OK || word[0] == '\0') return status;
+    snprintf(check->dumped, sizeof check->dumped, "%s could read or write files", word);
+    listener_tell(check->listener, TOLD_WARNING, "POV-Ray reads the dump of the scene, not its file: %s",
+                  check->dumped);
+  }
+  return povray_render(&check->povray, check->scene, out);
+}
+
 enum status check_measure_row(struct check *check, size_t steps)
 {
   struct check_row *row = &check->row[check->row_count];
   if (check->row_count > 0) image_destroy(&row[-1].picture.image);
   *row = (struct check_row){.steps = steps};
   const struct check_request *request = check->request;
-  const bool own = steps == 0 && request->own_text;
-  enum status status = own ? povray_render_file(&check->povray, request->path, request->folders, &row->picture)
-                           : povray_render(&check->povray, check->scene, &row->picture);
+  enum status status = steps == 0 ? render_first(check, &row->picture)
+                                  : povray_render(&check->povray, check->scene, &row->picture);
   if (status != STATUS_OK) return status;
   if (check->row_count++ == 0) povray_warnings(&check->povray, &check->warnings);
   unsigned char *mask = calloc(request->width * request->height, 1); /* [height][width]: POV-Ray hits */

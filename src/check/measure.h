@@ -74,6 +74,7 @@ struct check {
   size_t row_count;
   struct check_worst worst[CHECK_WORST]; /* of the last row */
   size_t worst_count;
+  char dumped[POVRAY_WORD_SIZE + 64];   /* why the first row is of the dump; "": it is of the file as written */
   struct text_buffer warnings;          /* POV-Ray's warnings on the scene as written */
   struct text_buffer file[CHECK_FILES]; /* what is written; empty: the file must not exist */
 };
@@ -84,7 +85,7 @@ struct check {
 enum status check_measure_ours(struct check *check) STATUS_MUST_CHECK;
 void check_ours_free(struct check_ours *ours);
 
-/* Adds a row for the scene in check->scene, or, if steps is 0 and the request asks for it, for its own text. */
+/* Adds a row for the scene in check->scene or, if steps is 0, for its file. */
 enum status check_measure_row(struct check *check, size_t steps) STATUS_MUST_CHECK;
 
 /* Finds the worst pixels of the last row, and asks POV-Ray for their distances. */

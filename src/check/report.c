@@ -7,9 +7,9 @@
 #include "page/page.h"
 #include "library/pscn.h"
 
-static void row_name(const struct check_row *row, char *out, size_t size)
+static void row_name(const struct check *check, const struct check_row *row, char *out, size_t size)
 {
-  if (row->steps == 0) snprintf(out, size, "as written");
+  if (row->steps == 0) snprintf(out, size, check->dumped[0] == '\0' ? "as written" : "dump");
   else snprintf(out, size, "u_steps %zu", row->steps);
 }
 
@@ -25,7 +25,7 @@ static json_t *row_json(const struct check *check, const struct check_row *row)
   const struct compare_result *r = &row->result;
   const size_t *on = row->over_limit_on;
   char name[32];
-  row_name(row, name, sizeof name);
+  row_name(check, row, name, sizeof name);
   json_t *root = json_pack(
     "{s:o,s:s,s:{s:o,s:o,s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o},s:{s:o,s:o},s:{s:f,s:f}}", "u_steps",
     row->steps == 0 ? json_null() : json_count(row->steps), "name", name, "over", "1/255", json_count(row->over[0]),
@@ -60,12 +60,13 @@ json_t *check_json(const struct check *check)
   char message[256];
   for (size_t k = 0; k < check->row_count; k++) rows = json_append(rows, row_json(check, &check->row[k]));
   for (size_t k = 0; k < check->worst_count; k++) worst = json_append(worst, worst_json(check, &check->worst[k]));
-  return json_pack(
-    "{s:s,s:s,s:o,s:b,s:[i,i],s:{s:o,s:o,s:o,s:o,s:o,s:o},s:b,s:o,s:o,s:{s:f,s:f}}", "version", PSCN_VERSION, "povray",
-    check->povray.version, "scene", page_of_text(request->path), "own_text", request->own_text, "size",
-    (int)request->width, (int)request->height, "limits", "fail", page_of_number(request->fail.each), "failpercent",
-    page_of_number(request->fail.percent), "allowfailures", page_of_number(request->fail.allowed_pixels), "hardfail",
-    page_of_number(request->fail.any), "failpsnr", page_of_number(request->fail_psnr), "failmask",
-    page_of_number(request->fail_mask), "within_limits", check_within_limits(check, message, sizeof message), "rows",
-    rows, "worst", worst, "time", "wall", check->ours.time.wall, "cpu", check->ours.time.cpu);
+  return json_pack("{s:s,s:s,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o,s:o,s:o,s:o},s:b,s:o,s:o,s:{s:f,s:f}}", "version",
+                   PSCN_VERSION, "povray", check->povray.version, "scene", page_of_text(request->path), "dumped",
+                   check->dumped[0] == '\0' ? json_null() : page_of_text(check->dumped), "size", (int)request->width,
+                   (int)request->height, "limits", "fail", page_of_number(request->fail.each), "failpercent",
+                   page_of_number(request->fail.percent), "allowfailures", page_of_number(request->fail.allowed_pixels),
+                   "hardfail", page_of_number(request->fail.any), "failpsnr", page_of_number(request->fail_psnr),
+                   "failmask", page_of_number(request->fail_mask), "within_limits",
+                   check_within_limits(check, message, sizeof message), "rows", rows, "worst", worst, "time", "wall",
+                   check->ours.time.wall, "cpu", check->ours.time.cpu);
 }

@@ -23,6 +23,7 @@ struct request {
   struct check_request check;
   struct output_folder folder;
   const char **options; /* owned; the texts are not */
+  bool dump;
 };
 
 static const struct command_option OPTIONS[] = {
@@ -36,7 +37,7 @@ static const struct command_option OPTIONS[] = {
                   "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
   COMMAND_TEXT("povray", 0, check.program, "the program; default povray", "FILE"),
   COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),
-  COMMAND_TRUE("own-text", 0, check.own_text, "in the first row it reads the scene's own text"),
+  COMMAND_TRUE("dump", 0, dump, "also in the first row it reads what pscn understood of the scene"),
   COMMAND_POSITIVE("timeout", check.timeout, "number of seconds", "seconds that each run of it may take; default 300",
                    "S"),
   COMMAND_NUMBER("fail", check.fail.each, "a pixel fails beyond this difference; default 4/255", "E"),
@@ -58,7 +59,7 @@ static enum status take_povray_option(const struct command *command, struct requ
   return STATUS_OK;
 }
 
-/* Adds POV-Ray options for the numbers of --declare, where POV-Ray reads the scene's own text. The caller frees
+/* Adds POV-Ray options for the numbers of --declare, where POV-Ray reads the scene's file. The caller frees
  * *out_texts, the options' texts. */
 static enum status declare_numbers(const struct command *command, struct request *request, char **out_texts)
 {
@@ -92,19 +93,23 @@ static enum status take_option(const struct command *command, void *context, int
 /* The errors that can be known before the work. */
 static enum status prepare(const struct command *command, const struct check_request *request)
 {
-  struct stat info;
   char message[IMAGE_MESSAGE_SIZE];
   if (request->height > MAX_PIXELS / request->width)
     return command_usage(command, "%zux%zu pixels are more than the %d that are compared", request->width,
                          request->height, MAX_PIXELS);
-  if (request->own_text &&
-      (output_is_standard(request->path) || (stat(request->path, &info) == 0 && !S_ISREG(info.st_mode)))) {
-    command_error(command, "--own-text reads the scene twice, and '%s' is no regular file", request->path);
-    return STATUS_FILE;
-  }
   const enum status status = image_file_ready(message);
   if (status != STATUS_OK) command_error(command, "cannot write pictures: %s", message);
   return status;
+}
+
+/* Why POV-Ray cannot read the scene as written, or NULL. */
+static const char *dumped_because(const struct request *request)
+{
+  struct stat info;
+  const char *path = request->check.path;
+  if (request->dump) return "--dump is given";
+  const bool file = !output_is_standard(path) && (stat(path, &info) != 0 || S_ISREG(info.st_mode));
+  return file ? NULL : "the scene is no file that can be read again";
 }
 
 static enum status work(void *context, const char *folder, struct text_buffer *out_text)
@@ -154,7 +159,8 @@ static enum status run(const struct command *command, int argc, const char **arg
     request.check.height = request.scene.height;
     request.check.command_line = command_line == NULL ? "" : command_line;
     status = prepare(command, &request.check);
-    if (status == STATUS_OK && request.check.own_text) status = declare_numbers(command, &request, &declared);
+    request.check.dumped = dumped_because(&request);
+    if (status == STATUS_OK && request.check.dumped == NULL) status = declare_numbers(command, &request, &declared);
     if (status == STATUS_OK) status = output_folder_fill(command, &request.folder, request.scene.quiet, work, &request);
   }
   free(command_line);
@@ -174,9 +180,10 @@ const struct command command_check = {
     "edge or a crease, which pixels only one of both hits, the time of both, and the differences of the distances\n"
     "that POV-Ray's trace() answers. DIR receives check.html, which needs nothing beside itself, check.json, and\n"
     "the pictures. The exit code is 1 where the last picture exceeds a limit.\n"
-    "POV-Ray runs without the user's settings, on one thread, without antialiasing, and reads what pscn understood of\n"
-    "the scene (pscn dump); with --own-text it first reads the scene's own text, which may do whatever POV-Ray lets\n"
-    "it do: it runs in a folder of its own, with a limit of time and memory.\n",
+    "POV-Ray runs without the user's settings, on one thread, without antialiasing, in a folder of its own, with a\n"
+    "limit of time and memory. For the first picture it reads the scene's file, without solver statements. For the\n"
+    "others it reads what pscn understood (pscn dump); so it does for all with --dump, and if the scene could read or\n"
+    "write other files.\n",
   .options = OPTIONS,
   .run = run,
 };

@@ -10,6 +10,7 @@
 #include "base/source.h"
 #include "language/include_path.h"
 #include "language/sources.h"
+#include "language/words.h"
 
 enum {
   MAX_FILES = 10000,
@@ -25,6 +26,7 @@ struct copies {
   const char *folder, *name;
   const char *const *folders; /* more folders to look in */
   const char *reason;
+  char *word; /* the first one that reads or writes files, or "" */
 };
 
 /* A copy being written: the text up to `done` is in the file. */
@@ -103,6 +105,29 @@ static struct source *read_included(const struct copy *copy, const char *name, s
   return source_read(path, INPUT_FILE, &source, &reason) == STATUS_OK ? source : NULL;
 }
 
+/* Notes the last token, and what is before it, as something that reads or writes files. */
+static void note_word(struct copy *copy, const char *before)
+{
+  const struct scan *scan = &copy->scan;
+  const int length = scan->end - scan->begin < 40 ? (int)(scan->end - scan->begin) : 40;
+  if (copy->all->word[0] == '\0')
+    snprintf(copy->all->word, PLAIN_COPY_WORD_SIZE, "%s%.*s in '%.300s'", before, length,
+             copy->source->text + scan->begin, copy->source->name);
+}
+
+/* Whether the last token is a word by which POV-Ray reads or writes a file. */
+static bool uses_files(const struct copy *copy)
+{
+  static const char *const words[] = {"bump_map",     "density_file", "fclose",    "file_exists",
+                                      "fopen",        "height_field", "image_map", "image_pattern",
+                                      "material_map", "read",         "ttf",       "write"};
+  size_t length = copy->scan.end - copy->scan.begin;
+  const char *word = words_directive(copy->source->text + copy->scan.begin, &length);
+  for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+    if (words_compare(word, length, words[k]) == 0) return true;
+  return false;
+}
+
 /* Copies a file name behind #include. */
 static void copy_include(struct copy *copy)
 {
@@ -149,13 +174,15 @@ static void copy_text(struct copy *copy)
     return;
   }
   int token = pscn_scan_next(&copy->scan);
-  while (token != 0 && copy->status == STATUS_OK) {
+  while (token != 0 && copy->status == STATUS_OK && copy->all->word[0] == '\0') {
     if (token == PSCN_TOKEN_SOLVER) {
       token = drop_solver(copy);
     } else if (token == TOKEN_INCLUDE) {
       token = pscn_scan_next(&copy->scan);
       if (token == PSCN_TOKEN_STRING) copy_include(copy);
+      else note_word(copy, "#include ");
     } else {
+      if ((token == PSCN_TOKEN_FOREIGN || token > TOKEN_FIRST_PRIVATE) && uses_files(copy)) note_word(copy, "");
       token = pscn_scan_next(&copy->scan);
     }
   }
@@ -184,14 +211,17 @@ static enum status copy_file(struct copies *copies, size_t index)
 }
 
 enum status plain_copy(const char *path, const char *const *folders, const char *folder, const char *name,
-                       const char **out_reason)
+                       const char **out_reason, char out_word[PLAIN_COPY_WORD_SIZE])
 {
-  struct copies copies = {.arena = arena_create(), .folder = folder, .name = name, .folders = folders};
+  struct copies copies = {
+    .arena = arena_create(), .folder = folder, .name = name, .folders = folders, .word = out_word};
   struct source *scene = NULL;
+  out_word[0] = '\0';
   enum status status = copies.arena == NULL ? STATUS_LIMIT : STATUS_OK;
   if (status == STATUS_OK) status = source_read(path, INPUT_FILE_OR_PIPE, &scene, &copies.reason);
   if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES) status = STATUS_LIMIT;
-  for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying a file adds those it includes */
+  for (size_t k = 0; k < copies.count && status == STATUS_OK && out_word[0] == '\0';
+       k++) /* copying a file adds those it includes */
     status = copy_file(&copies, k);
   for (size_t k = 0; k < copies.count; k++) source_destroy(copies.source[k]);
   memory_free(copies.source);

@@ -9,10 +9,16 @@
 
 #include "base/status.h"
 
+enum { PLAIN_COPY_WORD_SIZE = 400 };
+
 /* Copies the scene file at `path` to `folder`/`name`, and each included file to "K-FILE" beside it, K = 1, 2, ...
  * `folders` are those of language_settings. STATUS_FILE if a file cannot be read or written: out_reason says why in
- * English. STATUS_LIMIT if memory is short or more than 10000 files are included. */
+ * English. STATUS_LIMIT if memory is short or more than 10000 files are included.
+ *
+ * out_word is "", unless POV-Ray could read or write files other than these by what the text says, skipped text and
+ * macros included: then it is the first such word and its file, "#fopen in 'parts.inc'", and the copy is not whole. */
 STATUS_MUST_CHECK enum status plain_copy(const char *path, const char *const *folders, const char *folder,
-                                         const char *name, const char **out_reason);
+                                         const char *name, const char **out_reason,
+                                         char out_word[PLAIN_COPY_WORD_SIZE]);
 
 #endif

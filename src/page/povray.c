@@ -14,6 +14,11 @@
 #include "language/plain_copy.h"
 #include "scene/dump.h"
 
+/* The bytes that a run may write: for each pixel the picture, the state in which POV-Ray keeps it meanwhile, and an answer
+ * of trace(), and something for the rest. */
+#define WRITTEN_BYTES ((size_t)64 << 20)
+#define WRITTEN_PIXEL_BYTES ((size_t)64)
+
 /* In our folder. POV-Ray runs in its subfolder RUN, which is new for each run. */
 static const char LOG[] = "povray.log", HOME[] = "home";
 #define RUN "run"
@@ -119,8 +124,12 @@ static enum status run_program(struct povray *povray, const char *const *argumen
                                           .output = log_path,
                                           .timeout = povray->timeout,
                                           .memory = povray->memory,
+                                          .written = WRITTEN_BYTES +
+                                                     WRITTEN_PIXEL_BYTES * povray->width * povray->height,
                                           .confined = true};
   const enum status status = process_run(&request, povray->listener->stop, out);
+  if (status == STATUS_LIMIT && out->overfull)
+    return listener_fail(povray->listener, status, "POV-Ray wrote more than %zu MB on %s", request.written >> 20, what);
   if (status == STATUS_LIMIT)
     return listener_fail(povray->listener, status, "POV-Ray took more than %g seconds on %s (--timeout)",
                          povray->timeout, what);
@@ -275,7 +284,7 @@ enum status povray_render(struct povray *povray, const struct scene *scene, stru
 }
 
 enum status povray_render_file(struct povray *povray, const char *path, const char *const *folders,
-                               struct povray_picture *out)
+                               char out_word[POVRAY_WORD_SIZE], struct povray_picture *out)
 {
   char folder[SCRATCH_PATH_SIZE];
   const char *reason;
@@ -283,11 +292,11 @@ enum status povray_render_file(struct povray *povray, const char *path, const ch
   scratch_path(&povray->folder, RUN, folder);
   enum status status = begin_run(povray);
   if (status != STATUS_OK) return status;
-  status = plain_copy(path, folders, folder, TEXT, &reason);
+  status = plain_copy(path, folders, folder, TEXT, &reason, out_word);
   if (status == STATUS_FILE)
     return listener_fail(povray->listener, status, "cannot copy the scene for POV-Ray: %s", reason);
   if (status != STATUS_OK) return listener_fail(povray->listener, status, "out of memory, or too many files");
-  return render_text(povray, "the scene's own text", out);
+  return out_word[0] == '\0' ? render_text(povray, "the scene as written", out) : STATUS_OK;
 }
 
 /* ---- what it hits ---- */

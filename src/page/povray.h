@@ -1,9 +1,9 @@
 /* Runs the installed POV-Ray on scene texts, in a folder of our own, to compare with it.
  *
  * It runs without the user's settings, on one thread, without antialiasing, dithering and display, so that the same
- * text gives the same picture everywhere. The text need not be trusted: POV-Ray's own restrictions on reading files and
- * running programs are on; each run has a new folder and may write nowhere else (if the system can enforce that); and
- * its time, memory and files are limited. If it fails, its output is shown, made printable. Errors go to the listener.
+ * text gives the same picture everywhere. The text need not be trusted. One that could read or write files is not
+ * rendered; POV-Ray's own restrictions on files and programs are on; each run has a new folder and may write nowhere
+ * else (if the system can enforce that); and its time, its memory and the bytes that it writes are limited. If it fails, its output is shown, made printable. Errors go to the listener.
  */
 #ifndef PSCN_PAGE_POVRAY_H
 #define PSCN_PAGE_POVRAY_H
@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/listener.h"
 #include "base/text_buffer.h"
+#include "language/plain_copy.h"
 #include "page/scratch.h"
 #include "image/image.h"
 #include "intersect/intersect.h"
@@ -53,9 +54,11 @@ enum status povray_render(struct povray *povray, const struct scene *scene,
                           struct povray_picture *out) STATUS_MUST_CHECK;
 
 /* The same from the text of a scene file itself, without its solver statements. `folders` are those of
- * language_settings. */
+ * language_settings. If the text could read or write other files, nothing is rendered, and out_word is the word that
+ * could (language/plain_copy.h); otherwise "". */
+enum { POVRAY_WORD_SIZE = PLAIN_COPY_WORD_SIZE };
 enum status povray_render_file(struct povray *povray, const char *path, const char *const *folders,
-                               struct povray_picture *out) STATUS_MUST_CHECK;
+                               char out_word[POVRAY_WORD_SIZE], struct povray_picture *out) STATUS_MUST_CHECK;
 
 /* Asks POV-Ray's trace() for the distance along each ray, in scene units: INFINITY on a miss. If out_mask is not NULL,
  * also asks which pixels hit something: out_mask[height][width] is 1 or 0. */

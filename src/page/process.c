@@ -4,6 +4,7 @@
 #endif
 #include "page/process.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -11,6 +12,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +26,7 @@
 
 enum {
   EXIT_SIGNAL = 128,
+  WRITTEN_EVERY = 32,        /* such looks: how often its files are measured */
   POLL_NANOSECONDS = 2000000 /* between two looks at the child: far less than a rendering takes */
 };
 
@@ -118,15 +121,42 @@ static void become(const struct process_request *request, int report, pid_t pare
   _exit(EXIT_SIGNAL - 1);
 }
 
-/* Waits for the child to end. Returns STATUS_INTERRUPTED if `stop` came first, STATUS_LIMIT if the time `end` did. */
-static enum status wait_child(pid_t child, const atomic_int *stop, double end, int *out_state)
+/* The bytes in the files of a folder. */
+static size_t folder_bytes(const char *folder)
+{
+  size_t bytes = 0;
+  struct stat info;
+  DIR *list = opendir(folder == NULL ? "." : folder);
+  for (struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;)
+    if (fstatat(dirfd(list), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(info.st_mode))
+      bytes += (size_t)info.st_size;
+  if (list != NULL) (void)closedir(list);
+  return bytes;
+}
+
+/* What ends a child: a flag that is set, a time, files that grow beyond `most` bytes. */
+struct bounds {
+  const atomic_int *stop;
+  double end;
+  const char *folder;
+  size_t most;
+};
+
+static bool is_overfull(const struct bounds *bounds)
+{
+  return bounds->most != 0 && folder_bytes(bounds->folder) > bounds->most;
+}
+
+/* Waits for the child to end. Returns STATUS_INTERRUPTED if the flag came first, STATUS_LIMIT if another bound did. */
+static enum status wait_child(pid_t child, const struct bounds *bounds, int *out_state)
 {
   const struct timespec pause = {.tv_nsec = POLL_NANOSECONDS};
-  for (;;) {
+  for (unsigned looks = 1;; looks++) {
     const pid_t ended = waitpid(child, out_state, WNOHANG);
     if (ended == child || (ended < 0 && errno != EINTR)) return STATUS_OK;
-    if (stop != NULL && atomic_load(stop) != 0) return STATUS_INTERRUPTED;
-    if (clock_seconds(CLOCK_MONOTONIC) > end) return STATUS_LIMIT;
+    if (bounds->stop != NULL && atomic_load(bounds->stop) != 0) return STATUS_INTERRUPTED;
+    if (clock_seconds(CLOCK_MONOTONIC) > bounds->end) return STATUS_LIMIT;
+    if (looks % WRITTEN_EVERY == 0 && is_overfull(bounds)) return STATUS_LIMIT;
     (void)nanosleep(&pause, NULL);
   }
 }
@@ -135,9 +165,10 @@ static void end_child(pid_t child)
 {
   int state;
   (void)kill(-child, SIGTERM);
-  const enum status ended = wait_child(child, NULL, clock_seconds(CLOCK_MONOTONIC) + GRACE, &state);
+  const struct bounds soon = {.end = clock_seconds(CLOCK_MONOTONIC) + GRACE}, never = {.end = INFINITY};
+  const enum status ended = wait_child(child, &soon, &state);
   (void)kill(-child, SIGKILL); /* and the rest of its group */
-  if (ended != STATUS_OK) (void)wait_child(child, NULL, INFINITY, &state);
+  if (ended != STATUS_OK) (void)wait_child(child, &never, &state);
 }
 
 enum status process_run(const struct process_request *request, const atomic_int *stop, struct process_result *out)
@@ -151,6 +182,10 @@ enum status process_run(const struct process_request *request, const atomic_int 
   (void)fcntl(report[0], F_SETFD, FD_CLOEXEC);
   (void)fcntl(report[1], F_SETFD, FD_CLOEXEC);
   const double start = clock_seconds(CLOCK_MONOTONIC), cpu_start = children_seconds();
+  const struct bounds bounds = {.stop = stop,
+                                .end = request->timeout > 0 ? start + request->timeout : INFINITY,
+                                .folder = request->folder,
+                                .most = request->written == 0 ? 0 : request->written + folder_bytes(request->folder)};
   const pid_t us = getpid(), child = fork();
   if (child == 0) become(request, report[1], us);
   const int fork_reason = errno;
@@ -166,10 +201,10 @@ enum status process_run(const struct process_request *request, const atomic_int 
   while (told < 0 && errno == EINTR);
   (void)close(report[0]);
   int state = 0;
-  const double end = request->timeout > 0 ? start + request->timeout : INFINITY;
-  const enum status status = wait_child(child, stop, end, &state);
+  const enum status status = wait_child(child, &bounds, &state);
   if (status != STATUS_OK) {
     end_child(child);
+    out->overfull = status == STATUS_LIMIT && is_overfull(&bounds);
     return status;
   }
   if (told == (ssize_t)sizeof out->reason) {

@@ -21,19 +21,21 @@ struct process_request {
   const char *const *environment;
   const char *output; /* file for both its outputs, relative to our folder */
   double timeout;     /* seconds of wall time that it may take; 0: no limit */
+  size_t written;     /* bytes that the files in `folder` may grow by, together; 0: no limit */
   size_t memory;      /* limit on its address space and on each of its files, in bytes; 0: none */
   bool confined;      /* it may write only in `folder`, if the system can enforce that */
 };
 
 struct process_result {
   bool missing;        /* the program does not exist or may not be run; `reason` says why, the rest is unset */
+  bool overfull;       /* STATUS_LIMIT is because of `written` */
   int reason;          /* errno if the program could not be started, or 0 */
   int exit_code;       /* 128 + the signal's number if a signal ended it */
   struct seconds time; /* wall time, and CPU time of the program and those it waited for */
 };
 
 /* Runs the program, with empty standard input. Returns STATUS_FILE if it could not be started, STATUS_INTERRUPTED or
- * STATUS_LIMIT if `stop` or the time limit ended it. An exit code other than 0 is a result. */
+ * STATUS_LIMIT if `stop` or a limit ended it. An exit code other than 0 is a result. */
 enum status process_run(const struct process_request *request, const atomic_int *stop,
                         struct process_result *out) STATUS_MUST_CHECK;
 

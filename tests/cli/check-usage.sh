@@ -8,7 +8,6 @@ try pscn check $SCENES/bent.pscn --fail -1
 try env PATH=/nonexistent "$(command -v pscn)" check $SCENES/bent.pscn
 try pscn check $SCENES/bent.pscn --povray ./povray 2>&1 | sed "s|$PWD|HERE|"
 try pscn check $SCENES/bent.pscn --povray /bin/true
-try pscn check - --own-text <$SCENES/bent.pscn
 # Sizes are those that the scene's own words stand for: no divisor is 0.
 echo 'background { rgb 1 / (image_width - 8) / (image_height - 12) }' >sized.pscn
 try pscn check sized.pscn --size 12x8 --povray /bin/true

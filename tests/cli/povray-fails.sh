@@ -44,7 +44,7 @@ for MODE in mute fails empty other wide broken killed slow deaf answers fewer; d
 done
 for MODE in talks warns timeless; do
   echo "$MODE:"
-  try timeout 60 pscn check "$scene" ${small% --quiet} --own-text --povray ./povray -o done 2>&1 | grep 'exit\|arning\|Error\|old'
+  try timeout 60 pscn check "$scene" ${small% --quiet} --povray ./povray -o done 2>&1 | grep 'exit\|arning\|Error\|old'
   ls -A tmp
 done
 for MODE in mute fails empty killed slow answers timeless talks; do
@@ -59,8 +59,8 @@ for MODE in parses raves; do
   grep -v 'povray: [0-9]' said
   grep -c 'povray: [0-9]' said
 done
-echo "what is declared for the scene's own text:"
-MODE=declares try pscn check "$scene" $small --own-text --declare A=0.1 --declare Longer=-3 --povray ./povray -o out 2>&1
+echo "what is declared for the scene as written:"
+MODE=declares try pscn check "$scene" $small --declare A=0.1 --declare Longer=-3 --povray ./povray -o out 2>&1
 echo "what it is to do, whatever its own settings are, and where it may read and write:"
 POVINI=any.ini MODE=told try pscn check "$scene" $small --povray ./povray -o out 2>&1
 echo "steps, and no flatness of the scene's:"

@@ -348,31 +348,20 @@ static void test_check(void **state)
   fail_files(arguments, FOLDER);
 }
 
-/* The scene's own text is copied with everything that it includes. */
-static void test_check_own_text(void **state)
+/* The scene's file is copied with everything that it includes. */
+static void test_check_includes(void **state)
 {
   (void)state;
-  const char *const arguments[] = {"check",
-                                   PSCN_SOURCE_DIR "/scenes/nested.pscn",
-                                   "--own-text",
-                                   "--quiet",
-                                   "--povray",
-                                   povray,
-                                   "--size",
-                                   "8x6",
-                                   "--steps",
-                                   "0",
-                                   "--grid",
-                                   "2",
-                                   "--failpercent",
-                                   "100",
-                                   "--failpsnr",
-                                   "0",
-                                   "--failmask",
-                                   "100",
-                                   "-o",
-                                   results,
-                                   NULL};
+  const char *const arguments[] = {"check",   PSCN_SOURCE_DIR "/scenes/nested.pscn",
+                                   "--quiet", "--povray",
+                                   povray,    "--size",
+                                   "8x6",     "--steps",
+                                   "0",       "--grid",
+                                   "2",       "--failpercent",
+                                   "100",     "--failpsnr",
+                                   "0",       "--failmask",
+                                   "100",     "-o",
+                                   results,   NULL};
   make_picture();
   snprintf(page, sizeof page, "%s/check.html", results);
   assert_true(fail_each(arguments, OPEN, FOLDER, NULL) > 2);
@@ -419,7 +408,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_first_picture), cmocka_unit_test(test_render), cmocka_unit_test(test_render_threads),
     cmocka_unit_test(test_merge),         cmocka_unit_test(test_others), cmocka_unit_test(test_standard_input),
-    cmocka_unit_test(test_compare),       cmocka_unit_test(test_check),  cmocka_unit_test(test_check_own_text),
+    cmocka_unit_test(test_compare),       cmocka_unit_test(test_check),  cmocka_unit_test(test_check_includes),
     cmocka_unit_test(test_chart),
   };
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -42,7 +42,9 @@ static int remove_folders(void **state)
 static void copy(const char *scene)
 {
   const char *reason;
-  assert_int_equal(plain_copy(scene, NULL, "out", "scene.pov", &reason), STATUS_OK);
+  char word[PLAIN_COPY_WORD_SIZE];
+  assert_int_equal(plain_copy(scene, NULL, "out", "scene.pov", &reason, word), STATUS_OK);
+  assert_string_equal(word, "");
 }
 
 static void the_scenes_folder_comes_first(void **state)
@@ -117,14 +119,46 @@ static void solver_statements_are_left_out(void **state)
   }
 }
 
-/* POV-Ray may have it. */
-static void what_is_not_found_is_left_to_povray(void **state)
+/* It may be in a branch that is not read. */
+static void what_is_not_found_is_left_alone(void **state)
 {
   (void)state;
-  static const char scene[] = "#include \"colors.inc\" #include Name #include \"out\" #include";
+  static const char scene[] = "#include \"none.inc\" #include \"out\"";
   put_text("scene.pscn", scene);
   copy("scene.pscn");
   expect_file("out/scene.pov", scene);
+}
+
+/* What POV-Ray could do with files is found wherever it stands. */
+static void words_that_use_files_are_found(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *scene, *word;
+  } cases[] = {
+    {"#ifndef (pscn) #fopen F \"x\" write #end", "#fopen in 'scene.pscn'"},
+    {"#macro M() # write (F, 1) #end", "# write in 'scene.pscn'"},
+    {"#declare A = 1; #/*a*/read (F, A)", "read in 'scene.pscn'"},
+    {"#fclose F", "#fclose in 'scene.pscn'"},
+    {"#declare A = pigment { image_map { png \"/x\" } };", "image_map in 'scene.pscn'"},
+    {"#declare A = pigment { density_file df3 \"/x\" };", "density_file in 'scene.pscn'"},
+    {"text { ttf \"/x\" \"a\" 1, 0 }", "ttf in 'scene.pscn'"},
+    {"height_field { png \"/x\" }", "height_field in 'scene.pscn'"},
+    {"#if (file_exists (\"/x\")) #end", "file_exists in 'scene.pscn'"},
+    {"#include \"f.inc\"", "#fopen in 'f.inc'"},
+    {"#include concat (\"f\", \".inc\")", "#include concat in 'scene.pscn'"},
+    {"#include Name", "#include Name in 'scene.pscn'"},
+    /* No such words. */
+    {"// #fopen\n\"#write\" #debug \"image_map\" reads writer Fopen", ""},
+  };
+  put_text("f.inc", "#fopen F \"x\" write");
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    const char *reason;
+    char word[PLAIN_COPY_WORD_SIZE];
+    put_text("scene.pscn", cases[k].scene);
+    assert_int_equal(plain_copy("scene.pscn", NULL, "out", "scene.pov", &reason, word), STATUS_OK);
+    assert_string_equal(word, cases[k].word);
+  }
 }
 
 static void a_disk_that_is_full_is_told(void **state)
@@ -132,16 +166,17 @@ static void a_disk_that_is_full_is_told(void **state)
   (void)state;
   static char text[1 << 20];
   const char *reason = NULL;
-  assert_int_equal(plain_copy("scene.pscn", NULL, "none", "scene.pov", &reason), STATUS_FILE);
+  char word[PLAIN_COPY_WORD_SIZE];
+  assert_int_equal(plain_copy("scene.pscn", NULL, "none", "scene.pov", &reason, word), STATUS_FILE);
   assert_string_equal(reason, strerror(ENOENT));
-  assert_int_equal(plain_copy("none.pscn", NULL, "out", "scene.pov", &reason), STATUS_FILE);
+  assert_int_equal(plain_copy("none.pscn", NULL, "out", "scene.pov", &reason, word), STATUS_FILE);
   assert_non_null(reason);
   memset(text, ' ', sizeof text - 1);
   assert_int_equal(symlink("/dev/full", "out/full.pov"), 0);
   for (size_t length = 1; length < sizeof text; length *= 1000000) {
     put_text("scene.pscn", text + sizeof text - 1 - length);
     reason = NULL;
-    assert_int_equal(plain_copy("scene.pscn", NULL, "out", "full.pov", &reason), STATUS_FILE);
+    assert_int_equal(plain_copy("scene.pscn", NULL, "out", "full.pov", &reason, word), STATUS_FILE);
     assert_string_equal(reason, strerror(ENOSPC));
   }
 }
@@ -153,7 +188,8 @@ int main(void)
     cmocka_unit_test(a_file_is_copied_once),
     cmocka_unit_test(a_long_name_is_cut),
     cmocka_unit_test(solver_statements_are_left_out),
-    cmocka_unit_test(what_is_not_found_is_left_to_povray),
+    cmocka_unit_test(what_is_not_found_is_left_alone),
+    cmocka_unit_test(words_that_use_files_are_found),
     cmocka_unit_test(a_disk_that_is_full_is_told),
   };
   return cmocka_run_group_tests(tests, make_folders, remove_folders);

@@ -63,7 +63,7 @@ for name in $(sed -n 's/^| \([^ ]*\) | read.*/\1/p' rows); do
       #default { texture { pigment { rgb <0.6, 0.7, 0.8> } } }'
     echo "#include \"$name\""
   } >scene.pscn
-  "$PSCN" check scene.pscn --own-text --size 80x60 --steps 0 --grid 0 --failpercent 8 --failpsnr 25 --failmask 3 -o page \
+  "$PSCN" check scene.pscn --size 80x60 --steps 0 --grid 0 --failpercent 8 --failpsnr 25 --failmask 3 -o page \
     >said 2>&1 || { echo "$name:"; cat said; failed=1; }
   [ "$(oiiotool --stats page/pscn.png | grep -c 'Constant: No')" = 1 ] || { echo "$name: nothing is seen"; failed=1; }
 done

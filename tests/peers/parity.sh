@@ -227,7 +227,7 @@ scene 'strings'
 # judge FILE: prints what is wrong with a scene.
 cat >judge.sh <<'END'
 file=${1%.pscn}
-"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --own-text --fail 1/255 --failpercent 0 \
+"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --fail 1/255 --failpercent 0 \
   --allowfailures $MOST --failpsnr 0 -o "$file" --quiet >"$file.log" 2>&1 || {
   echo "$file: exit code $?"
   cat "$file.log"

@@ -39,13 +39,15 @@ enum status __wrap_povray_ask(struct povray *povray, const struct scene *scene, 
   return STATUS_OK;
 }
 
-/* The scene's own text gives a different picture. */
+/* The scene's file gives a different picture. */
 enum status __wrap_povray_render_file(struct povray *povray, const char *path, const char *const *folders,
-                                      struct povray_picture *out);
+                                      char out_word[POVRAY_WORD_SIZE], struct povray_picture *out);
 enum status __wrap_povray_render_file(struct povray *povray, const char *path, const char *const *folders,
-                                      struct povray_picture *out)
+                                      char out_word[POVRAY_WORD_SIZE], struct povray_picture *out)
 {
-  (void)path, (void)folders;
+  (void)folders;
+  strcpy(out_word, path);
+  if (out_word[0] != '\0') return STATUS_OK;
   const enum status status = __wrap_povray_render(povray, NULL, out);
   image_pixel(&out->image, 0, 0)[0] = 1;
   return status;
@@ -59,14 +61,21 @@ void __wrap_povray_warnings(const struct povray *povray, struct text_buffer *out
 }
 
 static struct scene scene = {.gamma = 1, .camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
-static const struct listener nobody;
+static int warned;
+static void hear(void *context, enum told what, const char *text)
+{
+  (void)context, (void)text;
+  warned += what == TOLD_WARNING;
+}
+static const struct listener nobody = {.hear = hear};
 static struct check_request request;
 static struct check_pixel pixels[MOST_PIXELS];
 
 /* A check of a black picture of this size. Every pixel is hit at distance 1, by both programs. */
 static struct check check_of(size_t width, size_t height, size_t grid)
 {
-  request = (struct check_request){.width = width, .height = height, .grid = grid, .fail = {.each = 4.0 / 255}};
+  request = (struct check_request){
+    .dumped = "", .width = width, .height = height, .grid = grid, .fail = {.each = 4.0 / 255}};
   struct check check = {.request = &request,
                         .listener = &nobody,
                         .scene = &scene,
@@ -136,17 +145,24 @@ static void hits_of_one_alone_are_counted(void **state)
   free_check(&check);
 }
 
-/* If asked for, POV-Ray reads the scene's own text, and its messages are passed on; but not with other steps. */
-static void own_text_is_as_written(void **state)
+/* POV-Ray reads the scene's file first, unless that is refused or the file could use others; then the dump. */
+static void the_first_row_is_as_written(void **state)
 {
   (void)state;
-  for (int own = 0; own < 2; own++) {
+  static const struct {
+    const char *dumped, *word, *why;
+  } cases[] = {{NULL, "", ""},
+               {"it is a pipe", "", "it is a pipe"},
+               {NULL, "#read in 'a'", "#read in 'a' could read or write files"}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     struct check check = check_of(3, 2, 0);
-    request.own_text = own;
+    request.dumped = cases[k].dumped, request.path = cases[k].word;
     for (size_t steps = 0; steps < 3; steps++) {
       assert_int_equal(check_measure_row(&check, steps), STATUS_OK);
-      assert_true(check.row[steps].result.max == (own && steps == 0));
+      assert_true(check.row[steps].result.max == (k == 0 && steps == 0));
     }
+    assert_string_equal(check.dumped, cases[k].why);
+    assert_int_equal(warned, k == 2);
     /* a picture is kept until the next row */
     assert_true(check.row[1].picture.image.value == NULL && check.row[2].picture.image.value != NULL);
     assert_int_equal(check.warnings.length, 1);
@@ -303,9 +319,9 @@ static void our_pixels_are_known(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(differences_are_counted), cmocka_unit_test(hits_of_one_alone_are_counted),
-    cmocka_unit_test(own_text_is_as_written),  cmocka_unit_test(distances_are_those_of_a_grid),
-    cmocka_unit_test(the_worst_are_apart),     cmocka_unit_test(the_map_shows_them),
+    cmocka_unit_test(differences_are_counted),     cmocka_unit_test(hits_of_one_alone_are_counted),
+    cmocka_unit_test(the_first_row_is_as_written), cmocka_unit_test(distances_are_those_of_a_grid),
+    cmocka_unit_test(the_worst_are_apart),         cmocka_unit_test(the_map_shows_them),
     cmocka_unit_test(our_pixels_are_known)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

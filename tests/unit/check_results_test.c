@@ -123,7 +123,7 @@ TEST(everything_is_in_its_place)
               "{\"allowfailures\":3.0,\"fail\":0.5,\"failmask\":200.0,\"failpercent\":100.0,\"failpsnr\":40.0,"
               "\"hardfail\":null}");
 
-  expect_json(json_object_get(numbers, "own_text"), "false");
+  expect_json(json_object_get(numbers, "dumped"), "null");
   expect_json(json_object_get(numbers, "within_limits"), "true");
   expect_json(json_object_get(numbers, "time"), "{\"cpu\":4.5,\"wall\":3.5}");
 
@@ -165,8 +165,8 @@ TEST(what_is_not_there_is_left_out)
 {
   static struct check_pixel pixels[WIDTH * HEIGHT];
   const struct check_request request = {
-    .path = "scene", .folder = "out", .command_line = "", .own_text = true, .width = WIDTH, .height = HEIGHT};
-  struct check check = {.request = &request, .ours = {.pixel = pixels}};
+    .path = "scene", .folder = "out", .command_line = "", .width = WIDTH, .height = HEIGHT};
+  struct check check = {.request = &request, .dumped = "no <file>", .ours = {.pixel = pixels}};
   struct text_buffer table = {0};
   assert_int_equal(image_create(WIDTH, HEIGHT, 3, &check.ours.picture), STATUS_OK);
   pictures = 0;
@@ -174,7 +174,8 @@ TEST(what_is_not_there_is_left_out)
   drawn = NULL;
   assert_int_equal(check_write(&check, "verdict", &table), STATUS_OK);
   assert_null(drawn);
-  expect_json(json_object_get(numbers, "own_text"), "true");
+  expect_json(json_object_get(numbers, "dumped"), "\"no <file>\"");
+  assert_non_null(strstr(page, "of that text, too: no &lt;file&gt;."));
   expect_json(json_object_get(numbers, "within_limits"), "false");
   assert_null(strstr(page, "<h2>Hits"));
   assert_null(json_object_get(json_array_get(json_object_get(numbers, "rows"), 0), "distances"));

@@ -179,6 +179,21 @@ IN_FOLDER(its_time_is_over)
   assert_int_equal(run((struct process_request){.timeout = 0.05}, "sleep 1000", &result), STATUS_LIMIT);
 }
 
+/* What is in the folder already does not count. */
+IN_FOLDER(its_files_may_grow_so_far)
+{
+  struct process_result result;
+  const struct process_request most = {.folder = "inside", .written = 2000000, .timeout = 30};
+  put_text("inside/file", "0123456789");
+  assert_int_equal(run(most, "head -c 1500000 /dev/zero >>file; sleep 0.3", &result), STATUS_OK);
+  assert_true(!result.overfull && result.exit_code == 0);
+  assert_int_equal(run(most, "head -c 2500000 /dev/zero >>file; sleep 20", &result), STATUS_LIMIT);
+  assert_true(result.overfull);
+  const struct process_request late = {.folder = "inside", .written = 2000000, .timeout = 0.1};
+  assert_int_equal(run(late, "sleep 20", &result), STATUS_LIMIT);
+  assert_false(result.overfull);
+}
+
 int main(void)
 {
   const struct sigaction ready = {.sa_handler = on_ready};
