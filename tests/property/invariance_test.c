@@ -123,44 +123,6 @@ TEST(turned_axes_answer_alike)
   assert_true(hits > WORLD_KINDS * 2 * RAYS / 4);
 }
 
-/* The order of the patches in the scene decides only which of those that meet in the hit point is answered. */
-TEST(the_order_of_patches_does_not_matter)
-{
-  struct random random = {SEED + 10};
-  world_net nets[WORLD_MAX], other[WORLD_MAX];
-  int wrong = 0, elsewhere = 0;
-  for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    for (int scene = 0; scene < SCENES; scene++) {
-      struct world a, b;
-      const size_t count = world_fill((enum world_kind)kind, &random, nets);
-      for (size_t p = 0; p < count; p++) memcpy(other[count - 1 - p], nets[p], sizeof nets[p]);
-      world_open(&a, nets, count, NULL);
-      world_open(&b, other, count, NULL);
-      for (int n = 0; n < RAYS; n++) {
-        const struct ray ray = world_ray(&random, nets, count, n % RAY_KINDS);
-        const struct hit want = world_closest(&a, &ray);
-        struct hit got = world_closest(&b, &ray);
-        if (got.patch != HIT_NONE) got.patch = (uint32_t)count - 1 - got.patch;
-        bool same = same_hit(&want, &got);
-        if (!same && want.certainty == got.certainty && want.patch != got.patch && want.patch != HIT_NONE &&
-            got.patch != HIT_NONE) {
-          const double length = vector_length(ray.direction);
-          double apart[3];
-          vector_subtract(want.point, got.point, apart);
-          same = fabs(want.t - got.t) * length <= SAME_T * fmax(1, want.t * length) + 2 * want.clearance &&
-                 vector_length(apart) <= SAME_T + 2 * want.clearance;
-          elsewhere++;
-        }
-        if (!same && wrong++ < 5) world_print_case("order", kind, &ray, &want, &got);
-      }
-      world_close(&a);
-      world_close(&b);
-    }
-  }
-  assert_in_range(elsewhere, 1, SCENES * RAYS);
-  assert_int_equal(wrong, 0);
-}
-
 /* A million times as large, and a million away: exactly the same geometry in other numbers. */
 TEST(scaled_and_moved_scenes_answer_alike)
 {

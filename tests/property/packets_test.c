@@ -1,4 +1,5 @@
-/* The answer to a ray does not depend on the rays beside it, the instruction set or the order of the patches. */
+/* The answer to a ray does not depend on the rays beside it or the order of the patches. (accuracy-kernels
+ * compares the instruction sets.) */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -187,30 +188,6 @@ static void occlusion(struct set_up *s)
 
 TEST(occluded_is_whether_there_is_a_hit) { on_all_stages(SEED + 1, SCENES, occlusion); }
 
-/* Compares every kernel that the processor can run with the plainest, the last of them; they may round differently. */
-static void kernels(struct set_up *s)
-{
-  static struct hit answers[KERNELS_MAX][STAGE_RAYS];
-  const struct kernel *before = s->world->tracer->kernel, *here[KERNELS_MAX];
-  const size_t count = kernels_here(here);
-  for (size_t k = 0; k < count; k++) {
-    s->world->tracer->kernel = here[k];
-    for (size_t first = 0; first < STAGE_RAYS; first += PACKET_SIZE)
-      tracer_closest(s->world->tracer, PACKET_SIZE, &s->rays[first], &answers[k][first]);
-  }
-  s->world->tracer->kernel = before;
-  int wrong = 0;
-  for (size_t k = 0; k + 1 < count; k++) {
-    for (size_t n = 0; n < STAGE_RAYS; n++) {
-      const struct hit *a = &answers[k][n], *b = &answers[count - 1][n];
-      if (!hits_agree(&s->rays[n], a, b) && wrong++ < 3) world_print_case(here[k]->name, s->kind, &s->rays[n], a, b);
-    }
-  }
-  assert_int_equal(wrong, 0);
-}
-
-TEST(kernels_agree) { on_all_stages(SEED + 2, SCENES, kernels); }
-
 /* Another order of the patches: the same t and, unless hits are tied, the same patch. */
 static void shuffled(struct set_up *s)
 {
@@ -240,13 +217,3 @@ static void shuffled(struct set_up *s)
 }
 
 TEST(answers_do_not_depend_on_the_order_of_patches) { on_all_stages(SEED + 3, SCENES, shuffled); }
-
-int main(void)
-{
-  const struct kernel *here[KERNELS_MAX];
-  const size_t count = kernels_here(here);
-  print_message("seed %d; kernels here:", SEED);
-  for (size_t k = 0; k < count; k++) print_message(" %s", here[k]->name);
-  print_message("\n");
-  return test_run();
-}
