@@ -1,4 +1,5 @@
 /* pscn render SCENE: a picture. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,7 +13,7 @@
 #include "command/values.h"
 #include "language/words.h"
 
-enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS, OPTION_TILE };
+enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS, OPTION_FRAMES, OPTION_TILE };
 
 enum {
   MAX_SAMPLES = 256, /* per side: 65536 rays per pixel */
@@ -25,6 +26,8 @@ struct request {
   struct rendering_request picture; /* bits 0, crop.width 0: not given */
   char *output, *part, *how;        /* owned: texts of `picture` that are not on the command line; or NULL */
 };
+
+enum { MAX_FRAME = 999999 };
 
 /* Seconds after which what is done is kept again. With the time that keeping takes, at most a minute is lost. */
 static const double DEFAULT_CHECKPOINT = 30;
@@ -41,6 +44,7 @@ static const struct command_option OPTIONS[] = {
                   "default: one for each processor", "N"),
   COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "what is kept of each pixel, with commas; default rgb", "LIST"),
   COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
+  COMMAND_OPTION("frames", 0, OPTION_FRAMES, "frames A to B of an animation; clock goes from 0 to 1 over them", "A-B"),
   COMMAND_OPTION("tile", 0, OPTION_TILE, "only piece K of N, from 1, as an EXR for pscn merge", "K/N"),
   COMMAND_TRUE("resume", 0, picture.resume, "go on where an earlier run was ended"),
   COMMAND_NUMBER("checkpoint", picture.checkpoint, "seconds after which what is done is kept; default 30, 0: never",
@@ -67,6 +71,19 @@ static enum status take_channels(const struct command *command, struct request *
   return command_usage(command, "there is no channel '%.*s', only %s", (int)length, bad, known);
 }
 
+static enum status take_frames(const struct command *command, struct scene_request *scene, const char *text)
+{
+  size_t first, last;
+  char number[16] = "";
+  const char *line = strchr(text, '-');
+  if (line != NULL && (size_t)(line - text) < sizeof number) memcpy(number, text, (size_t)(line - text));
+  if (!value_integer(number, 1, MAX_FRAME, &first) || !value_integer(line + 1, first, MAX_FRAME, &last))
+    return command_usage(command, "'%s' are no frames A-B, such as 1-24", text);
+  scene->first_frame = (int)first;
+  scene->last_frame = (int)last;
+  return STATUS_OK;
+}
+
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
   struct request *request = context;
@@ -80,6 +97,7 @@ static enum status take_option(const struct command *command, void *context, int
     if (!value_integer(argument, 8, 32, &request->picture.bits))
       return command_usage(command, "'%s' bits are 8, 16 or 32", argument);
     break;
+  case OPTION_FRAMES: return take_frames(command, &request->scene, argument);
   case OPTION_TILE:
     if (!piece_number(argument, strlen(argument), &request->picture.piece, &request->picture.pieces))
       return command_usage(command, "'%s' is no piece K/N, such as 3/16", argument);
@@ -187,6 +205,63 @@ static enum status check(const struct command *command, struct rendering_request
   return status == STATUS_OK ? check_part(command, picture) : status;
 }
 
+static enum status make(const struct command *command, struct request *request)
+{
+  enum status status = complete(command, request);
+  if (status == STATUS_OK) status = check(command, &request->picture);
+  if (status == STATUS_OK) status = rendering_make(command, &request->picture);
+  free(request->output);
+  free(request->part);
+  free(request->how);
+  return status;
+}
+
+/* NAME07.png: the number has as many digits as that of the last frame, as in POV-Ray. The caller frees it. */
+static char *frame_name(const char *name, int frame, int last)
+{
+  const size_t size = strlen(name) + 16;
+  char *framed = malloc(size);
+  const char *slash = strrchr(name, '/'), *suffix = strrchr(name, '.');
+  if (suffix == NULL || (slash != NULL && suffix < slash)) suffix = name + strlen(name);
+  if (framed != NULL)
+    snprintf(framed, size, "%.*s%0*d%s", (int)(suffix - name), name, snprintf(NULL, 0, "%d", last), frame, suffix);
+  return framed;
+}
+
+/* Whether an earlier run has finished the picture: it is there, and nothing is kept of it. */
+static bool is_finished(const char *output)
+{
+  struct stat state;
+  char part[4096];
+  return snprintf(part, sizeof part, "%s.part.exr", output) < (int)sizeof part && stat(output, &state) == 0 &&
+         lstat(part, &state) != 0;
+}
+
+static enum status make_frames(const struct command *command, const struct request *request)
+{
+  const int first = request->scene.first_frame, last = request->scene.last_frame;
+  if (request->picture.stats != NULL || request->picture.pieces > 0)
+    return command_usage(command, "--stats and --tile are of one picture, and --frames of several");
+  char *name = request->picture.output != NULL ? strdup(request->picture.output)
+                                               : output_name(request->scene.path, ".png");
+  enum status status = name == NULL ? command_out_of_memory(command) : STATUS_OK;
+  if (status == STATUS_OK && output_is_standard(name))
+    status = command_usage(command, "frames are files; -o NAME.png says of which names");
+  for (int frame = first; frame <= last && status == STATUS_OK; frame++) {
+    struct request one = *request;
+    char *output = frame_name(name, frame, last);
+    one.scene.frame = frame;
+    one.scene.clock = last > first ? (double)(frame - first) / (last - first) : 0;
+    one.picture.output = output;
+    if (output == NULL) status = command_out_of_memory(command);
+    else if (!one.picture.resume || !is_finished(output)) status = make(command, &one);
+    if (status != STATUS_OK) command_error(command, "frame %d of %d to %d is not rendered", frame, first, last);
+    free(output);
+  }
+  free(name);
+  return status;
+}
+
 static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.scene = SCENE_REQUEST_DEFAULT,
@@ -196,17 +271,10 @@ static enum status run(const struct command *command, int argc, const char **arg
                                         .channels = "rgb",
                                         .checkpoint = DEFAULT_CHECKPOINT}};
   struct command_line line;
-  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
-  if (status == STATUS_OK && !line.help) {
-    request.scene.path = line.positional[0];
-    status = complete(command, &request);
-    if (status == STATUS_OK) status = check(command, &request.picture);
-    if (status == STATUS_OK) status = rendering_make(command, &request.picture);
-  }
-  free(request.output);
-  free(request.part);
-  free(request.how);
-  return status;
+  const enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
+  if (status != STATUS_OK || line.help) return status;
+  request.scene.path = line.positional[0];
+  return request.scene.last_frame > 0 ? make_frames(command, &request) : make(command, &request);
 }
 
 const struct command command_render = {
@@ -220,6 +288,9 @@ const struct command command_render = {
     "What is done of FILE is kept in FILE.part.exr meanwhile, and stays where SIGINT, SIGTERM, SIGHUP or SIGXCPU ends\n"
     "the rendering, the process is killed or FILE cannot be written: --resume goes on with it, pscn merge and viewers\n"
     "read it. It goes when FILE is complete.\n"
+    "\n"
+    "--frames 1-24 -o NAME.png writes NAME01.png to NAME24.png, with --resume those that are missing. A frame of its\n"
+    "own, for a farm: --clock X --declare frame_number=K -o NAME07.png.\n"
     "\n"
     "Channels (all but rgb need EXR and are stored with 32 bits; depth and all below are those of one sample, the\n"
     "middle one, which is the pixel's centre when the number of samples is odd):\n"

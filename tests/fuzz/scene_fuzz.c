@@ -14,6 +14,7 @@
 
 enum {
   MAX_MEMORY = 64 << 20,
+  MAX_WORK = 5000,    /* tokens that loops and macros read */
   SOLVER_TEXT = 200,  /* bytes */
   DUMPED_MOST = 2000, /* patches of a scene that is dumped */
   RENDERED_MOST = 200,
@@ -54,6 +55,8 @@ static struct scene *load(const char *text, size_t length)
                                              .folders = folders,
                                              .numbers = numbers,
                                              .number_count = sizeof numbers / sizeof *numbers,
+                                             .max_work = MAX_WORK,
+                                             .lenient = length % 4 == 1,
                                              .max_memory = MAX_MEMORY};
   size_t told = 0;
   struct diagnostics diagnostics = {.tell = tell, .context = &told};
