@@ -1,7 +1,8 @@
 #!/bin/bash
 # run_case.sh CASE: runs CASE.sh of this folder in a new empty folder and compares what it says with CASE.out (stdout),
 # CASE.err (stderr) and CASE.exit (exit code); a missing file stands for nothing said, or exit code 0. With
-# PSCN_UPDATE=1 the files are written instead; look at the difference before committing it.
+# PSCN_UPDATE=1 the files are written instead; look at the difference before committing it. Equal lines one after the
+# other, from three on, stand there once, with their number.
 #
 # In a case `pscn` is the program under test, $SCENES the folder of its scenes, and
 #   try COMMAND...   runs a command and says its exit code on stdout, as "exit N"
@@ -14,6 +15,14 @@ trap '[ $BASHPID != $$ ] || rm -rf "$folder"' EXIT # not in a child that is kill
 mkdir "$folder/work"
 cp -r "$here/scenes" "$folder/scenes"
 ln -s "$PSCN" "$folder/pscn"
+
+# shorten FILE: writes it to stdout, with such lines once.
+shorten() {
+  awk 'function tell() { if (n > 2) print line "\n(" n " times)"; else while (n-- > 0) print line }
+    NR > 1 && $0 == line { n++; next }
+    { tell(); line = $0; n = 1 }
+    END { tell() }' "$1"
+}
 
 cat >"$folder/prelude" <<'EOF'
 try() { "$@"; echo "exit $?"; }
@@ -37,9 +46,9 @@ for part in out err exit; do
     if [ "$part" = exit ] && [ "$status" -eq 0 ] || [ ! -s "$folder/$part" ]; then
       continue
     fi
-    cp "$folder/$part" "$expected"
+    shorten "$folder/$part" >"$expected"
   elif [ -e "$expected" ]; then
-    diff -u --label "$case.$part" --label "what pscn said" "$expected" "$folder/$part" || failed=1
+    diff -u --label "$case.$part" --label "what pscn said" <(shorten "$expected") <(shorten "$folder/$part") || failed=1
   elif [ "$part" = exit ]; then
     [ "$status" -eq 0 ] || { echo "exit code $status instead of 0"; failed=1; }
   elif [ -s "$folder/$part" ]; then
