@@ -4,7 +4,7 @@
 #
 #   examples/paper.sh             everything
 #   examples/paper.sh PART...     only these, with the programs as they are built: curves random claims patch pictures ways
-#                                 causes maps tangency teapot page; the last makes the figures and the page of the CSV files as they are
+#                                 causes teapot page; the last makes the figures and the page of the CSV files as they are
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -22,8 +22,7 @@ keep() { cat >"$data/$1.new" && mv "$data/$1.new" "$data/$1"; }
 build() {
   install_packages "${BUILD_PACKAGES[@]}" gnuplot-nox
   cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
-  cmake --build build --target pscn random_experiments patch_experiments picture_errors channel_maps footing claims tangency \
-    >/dev/null
+  cmake --build build --target pscn random_experiments patch_experiments picture_errors footing claims >/dev/null
 }
 
 # Fig 1: eq 3 of a ray with three hits, and the common roots on the patch.
@@ -48,19 +47,9 @@ random() {
   done
 }
 
-# What the paper says without a figure; the chart has every twentieth step. The ways to the roots of a polynomial.
+# What the paper says without a figure.
 claims() {
-  "$programs/claims" lower | keep lower.csv
-  "$programs/claims" nearest "$data" | keep nearest.csv
-  "$programs/claims" starts | keep starts.csv
-  "$programs/claims" slopes | keep slopes.csv
-  "$programs/claims" steps | awk 'NR == 1 || NR % 20 == 0' | keep steps.csv
-  polynomial='1 -0.3 0.7 0.2 -0.5 0.9 -0.1 0.4 -0.6'
-  echo "$polynomial" | "$pscn" roots | tr ' ' '\n' | paste -d, - - | keep paths_roots.csv
-  for method in newton laguerre aberth; do
-    echo "$polynomial" | "$pscn" roots --iterates --solver "$method { form paper tolerance 1e-10 }" |
-      awk -v method="$method" 'NR > 1 { printf "%s,%d,%d,%.6g,%.6g\n", method, $3, $2, $4, $5 }'
-  done | { echo 'method,root,step,re,im'; cat; } | keep paths.csv
+  for claim in lower nearest starts slopes; do "$programs/claims" "$claim" | keep "$claim.csv"; done
 }
 
 # Fig 13-15: the patch, 100 x 75 rays.
@@ -81,7 +70,7 @@ pictures() {
   for figure in 'fig16 paper 1e-2' 'fig17 paper_magnified 1e-10'; do
     read -r name scene eps <<<"$figure"
     "$pscn" render "scenes/$scene.pscn" -o "$data/$name-default.png" --size 320x240 --quiet
-    for method in newton laguerre aberth durand_kerner; do
+    for method in newton laguerre aberth; do
       solver="$method { $paper tolerance $eps }"
       errors "$name,$method" "scenes/$scene.pscn" "$solver" "$data/$name-$method"
     done
@@ -101,17 +90,28 @@ pictures() {
   rm "$data"/unused*.png
 }
 
+# A scene of one patch with u and v exchanged.
+exchanged() {
+  "$pscn" dump "$1" | awk '
+    /^  </ { rest = $0; while (match(rest, /<[^>]*>/)) { point[count++] = substr(rest, RSTART, RLENGTH); rest = substr(rest, RSTART + RLENGTH) }
+      if (count == 16) for (k = 0; k < 16; k++) print "  " point[4 * (k % 4) + int(k / 4)]
+      next }
+    { print }'
+}
+
 # Fig 16 and 17 with one thing changed: how far roots found first spoil those behind them.
 ways() {
   for figure in 'fig16 paper 1e-2' 'fig17 paper_magnified 1e-10'; do
     read -r name scene eps <<<"$figure"
-    for way in 'deflation composite' 'radii polygon' 'refine on'; do
-      for method in newton laguerre aberth; do
+    exchanged "scenes/$scene.pscn" >"$data/unused.pscn"
+    for method in newton laguerre aberth; do
+      for way in 'deflation composite' 'radii polygon' 'refine on'; do
         errors "$name,$way,$method" "scenes/$scene.pscn" "$method { $paper tolerance $eps $way }"
       done
+      errors "$name,exchanged,$method" "$data/unused.pscn" "$method { $paper tolerance $eps }"
     done
   done | { echo "figure,way,method,$kinds"; cat; } | keep ways.csv
-  rm "$data"/unused*.png
+  rm "$data"/unused*
 }
 
 # Why hits are lost, class by class, and the condition of every root (tests/stability/causes.c).
@@ -121,19 +121,6 @@ causes() {
   PSCN_EFFORT=full build/tests/stability/stability-causes | keep causes.csv
   build/tests/stability/stability-causes conditions | keep conditions.csv
 }
-
-# The same as maps: iterations, eq 11, the distance from the certified answer; Fig 16's patch, eps 1e-2 and 1e-6.
-maps() {
-  for eps in 1e-2 1e-6; do
-    for method in newton laguerre aberth durand_kerner; do
-      printf '%s,%s,' "$eps" "$method"
-      "$programs/channel_maps" scenes/paper.pscn 320 240 "$method { $paper tolerance $eps }" "$data/map$eps-$method"
-    done
-  done | { echo 'eps,method,iterations,roots,accurate,off,wrong'; cat; } | keep maps.csv
-}
-
-# Beyond the paper: cost and error against the distance to the nearest tangency.
-tangency() { "$programs/tangency" scenes/paper.pscn | keep tangency.csv; }
 
 # The share of the teapot's roots that are found, counted as by its test (tests/stability/teapot_roots.c).
 teapot() {
@@ -152,10 +139,10 @@ page() {
 }
 
 mkdir -p "$data"
-for part in "${@:-build curves random claims patch pictures ways causes maps tangency teapot page}"; do
+for part in "${@:-build curves random claims patch pictures ways causes teapot page}"; do
   for name in $part; do
     case $name in
-    build | curves | random | claims | patch | pictures | ways | causes | maps | tangency | teapot | page) ;;
+    build | curves | random | claims | patch | pictures | ways | causes | teapot | page) ;;
     *) echo "paper.sh: there is no part '$name'" >&2 && exit 2 ;;
     esac
     echo "$name"

@@ -1,10 +1,9 @@
 /* What the paper says of its methods without a figure: CSV on standard output.
  *
- *     claims lower             2.1: patches of lower degree cost less
- *     claims nearest FOLDER    3.2: Laguerre's method goes to the root nearest to the start; maps of where starts go
- *     claims starts            3.3: Aberth's method converges from any distinct starts
- *     claims slopes            3.1 to 3.3: the orders of convergence, from the iterates
- *     claims steps             the same, a row a step: the points of the chart
+ *     claims lower       2.1: patches of lower degree cost less
+ *     claims nearest     3.2: Laguerre's method goes to the root nearest to the start
+ *     claims starts      3.3: Aberth's method converges from any distinct starts
+ *     claims slopes      3.1 to 3.3: the orders of convergence, from the iterates
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +15,6 @@
 #include "base/clock.h"
 #include "forms.h"
 #include "measure.h"
-#include "pictures.h"
 
 enum { POLYNOMIALS = 100, PAPER_DEGREE = 18, ROUNDS = 9 };
 
@@ -133,39 +131,8 @@ static void random_problem(uint64_t *seed, int degree, struct root_problem *out,
   solver_solve(&p, &options, NULL, out_roots);
 }
 
-/* Draws which root each start leads to, on [-2,2] x [-2,2]; for the method PAPER_METHODS, which root is nearest. Roots
- * are black. */
-static bool draw_basins(const char *path, int method)
+static void nearest(void)
 {
-  uint64_t seed = 5;
-  struct root_problem problem;
-  struct root_set roots;
-  struct image image;
-  random_problem(&seed, BASIN_DEGREE, &problem, &roots);
-  if (!picture_begin(BASIN_PIXELS, BASIN_PIXELS, &image)) return false;
-  for (size_t p = 0; p < BASIN_PIXELS * BASIN_PIXELS; p++) {
-    const double x = ((double)(p % BASIN_PIXELS) + 0.5) / BASIN_PIXELS,
-                 y = ((double)(p / BASIN_PIXELS) + 0.5) / BASIN_PIXELS;
-    const struct complex_number z = {4 * x - 2, 2 - 4 * y};
-    const int near = nearest_root(&roots, z);
-    const int root = method == PAPER_METHODS ? near : goes_to((enum paper_method)method, &problem, &roots, z);
-    float *pixel = image.value + 3 * p;
-    pixel[0] = pixel[1] = pixel[2] = 1;
-    if (root >= 0) picture_scale((root + 0.5) / BASIN_DEGREE, pixel);
-    if (hypot(roots.root[near].re - z.re, roots.root[near].im - z.im) < 0.04) pixel[0] = pixel[1] = pixel[2] = 0;
-  }
-  return picture_end(&image, true, path, "");
-}
-
-static bool nearest(const char *folder)
-{
-  for (int m = 0; m <= PAPER_METHODS; m++) {
-    char path[4096];
-    if (m == PAPER_ABERTH) continue; /* its start is not that of one root */
-    const char *name = m == PAPER_METHODS ? "nearest" : paper_method_names[m];
-    if (snprintf(path, sizeof path, "%s/basins-%s.png", folder, name) >= (int)sizeof path || !draw_basins(path, m))
-      return false;
-  }
   printf("degree,method,nearest,lost\n");
   for (int degree = BASIN_DEGREE; degree <= PAPER_DEGREE; degree += PAPER_DEGREE - BASIN_DEGREE) {
     for (int m = 0; m < PAPER_ABERTH; m++) {
@@ -185,7 +152,6 @@ static bool nearest(const char *folder)
       printf("%d,%s,%.4f,%.4f\n", degree, paper_method_names[m], near / all, lost / all);
     }
   }
-  return true;
 }
 
 /* ---- 3.3 ---- */
@@ -267,12 +233,11 @@ struct line {
 #define NEAR 3e-2
 #define ROUNDED 1e-13
 
-static void take_step(struct line *line, bool print, enum paper_method method, double error, double next)
+static void take_step(struct line *line, double error, double next)
 {
   if (!(error < NEAR && next > ROUNDED && next < error)) return;
   const double x = log10(error), y = log10(next);
   line->n += 1, line->x += x, line->y += y, line->xx += x * x, line->xy += x * y;
-  if (print) printf("%s,%.3f,%.3f\n", paper_method_names[method], x, y);
 }
 
 static double error_at(const struct ways *ways, int root, int step)
@@ -282,25 +247,25 @@ static double error_at(const struct ways *ways, int root, int step)
 }
 
 /* Newton and Laguerre: each root by itself. Aberth: the largest error of all roots, which make one iteration. */
-static void take_steps(const struct ways *ways, bool print, enum paper_method method, struct line *line)
+static void take_steps(const struct ways *ways, enum paper_method method, struct line *line)
 {
   if (method == PAPER_ABERTH) {
     for (int step = 0; step + 2 < ways->steps[0]; step++) {
       double error = 0, next = 0;
       for (int root = 0; root < PAPER_DEGREE; root++)
         error = fmax(error, error_at(ways, root, step)), next = fmax(next, error_at(ways, root, step + 1));
-      take_step(line, print, method, error, next);
+      take_step(line, error, next);
     }
     return;
   }
   for (int root = 0; root < PAPER_DEGREE; root++)
     for (int step = 0; step + 2 < ways->steps[root]; step++)
-      take_step(line, print, method, error_at(ways, root, step), error_at(ways, root, step + 1));
+      take_step(line, error_at(ways, root, step), error_at(ways, root, step + 1));
 }
 
-static void orders(bool print)
+static void orders(void)
 {
-  printf(print ? "method,error,next\n" : "method,order,steps\n");
+  printf("method,order,steps\n");
   static struct ways ways;
   for (int m = 0; m < PAPER_METHODS; m++) {
     const struct solver_watch watch = {keep, &ways};
@@ -314,21 +279,21 @@ static void orders(bool print)
       measure_random_polynomial(&seed, PAPER_DEGREE, problem.c);
       memset(ways.steps, 0, sizeof ways.steps);
       options.solver->find(&problem, &options, NULL, &roots);
-      take_steps(&ways, print, (enum paper_method)m, &line);
+      take_steps(&ways, (enum paper_method)m, &line);
     }
     const double slope = (line.n * line.xy - line.x * line.y) / (line.n * line.xx - line.x * line.x);
-    if (!print) printf("%s,%.2f,%.0f\n", paper_method_names[m], slope, line.n);
+    printf("%s,%.2f,%.0f\n", paper_method_names[m], slope, line.n);
   }
 }
 
 int main(int argc, char **argv)
 {
-  const char *what = argc > 1 ? argv[1] : "";
-  if (argc == 2 && strcmp(what, "lower") == 0) return lower(), 0;
-  if (argc == 3 && strcmp(what, "nearest") == 0) return nearest(argv[2]) ? 0 : 4;
-  if (argc == 2 && strcmp(what, "starts") == 0) return starts(), 0;
-  if (argc == 2 && strcmp(what, "slopes") == 0) return orders(false), 0;
-  if (argc == 2 && strcmp(what, "steps") == 0) return orders(true), 0;
-  fputs("usage: claims lower | nearest FOLDER | starts | slopes | steps\n", stderr);
+  static const struct {
+    const char *name;
+    void (*run)(void);
+  } claims[] = {{"lower", lower}, {"nearest", nearest}, {"starts", starts}, {"slopes", orders}};
+  for (size_t k = 0; argc == 2 && k < sizeof claims / sizeof claims[0]; k++)
+    if (strcmp(argv[1], claims[k].name) == 0) return claims[k].run(), 0;
+  fputs("usage: claims lower | nearest | starts | slopes\n", stderr);
   return 2;
 }

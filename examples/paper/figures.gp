@@ -32,7 +32,7 @@ degrees = data.'/degrees.csv'
 set output data.'/fig03.svg'
 set title 'Fig 3: iterations to find one root'
 set ylabel 'iterations'
-plot for [method in methods] degrees using 1:(strcol(2) eq method ? $3 : NaN) with linespoints title method
+plot for [m = 1:words(methods)] degrees using 1:(strcol(2) eq word(methods, m) ? $3 : NaN):7 with yerrorlines lt m title word(methods, m)
 @wide
 rows = data.'/footing_degrees.csv'; across = 'degree'; chosen = "1"
 figure = 'Fig 2: one iteration of one root'; time = 'us_iteration'
@@ -88,7 +88,8 @@ set xrange [1e-14:1e-1] reverse
 set output data.'/fig13.svg'
 set title 'Fig 13: iterations a root (full: from the ray before)'
 set ylabel 'iterations'
-set yrange [0:30]
+set logscale y
+set yrange [1:600]
 plot for [m = 1:3] patch \
        using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' ? $4 : NaN) \
        with linespoints lt m lw 2 title word(methods, m), \
@@ -138,40 +139,9 @@ do for [figure in 'fig11,newton fig12,laguerre fig12-aberth,aberth'] {
   set output data.'/'.name.'.svg'
   set title (name eq 'fig11' ? 'Fig 11: ' : name eq 'fig12' ? 'Fig 12: ' : 'For comparison: ') \
     .method.', accuracy against order (below 0 meets eq 11)'
-  plot for [eps in tried] order using 3:(strcol(2) eq method && strcol(1) eq eps ? $5 : NaN) \
-       with linespoints title 'eps '.eps
+  plot for [e = 1:words(tried)] order using ($3 + 0.08 * (e - 3)):(strcol(2) eq method && strcol(1) eq word(tried, e) ? $5 : NaN) \
+       with linespoints title 'eps '.word(tried, e) # moved aside: curves coincide
 }
-
-# 3.3: the error of a step against that of the step before.
-set output data.'/slopes.svg'
-set title 'one step: error before and after'
-set xlabel 'log10 of the error'
-set ylabel 'log10 of the next'
-set xrange [-7:-1.5] noreverse
-set yrange [-13:-2]
-plot for [m = 1:3] data.'/steps.csv' using 2:(strcol(1) eq word(methods, m) ? $3 : NaN) with points pt 7 ps 0.3 lt m \
-       title word(methods, m), \
-     2 * x with lines lc 'black' dt 2 title 'slope 2', 3 * x with lines lc 'black' dt 4 title 'slope 3'
-
-# The ways of the values to the roots of one polynomial.
-@wide
-set output data.'/paths.svg'
-set multiplot layout 1,3 title 'The way to the roots of one polynomial of degree 8' font ',14'
-set xlabel 're'
-set ylabel 'im'
-set xrange [-2:2]
-set yrange [-2:2]
-set size ratio -1
-unset key
-do for [method in paper_methods] {
-  set title method
-  plot for [root = 0:7] data.'/paths.csv' \
-         using (strcol(1) eq method && $2 == root ? $4 : NaN):5 with linespoints pt 7 ps 0.4 lt root + 1, \
-       data.'/paths_roots.csv' using 1:2 with points pt 6 ps 1.2 lc 'black'
-}
-unset multiplot
-@narrow
-set size noratio
 
 # Fig 1: the two curves of a ray, and where they meet.
 set output data.'/fig01.svg'
@@ -204,39 +174,3 @@ set datafile separator whitespace
 plot $a using 1:2 with lines lw 2 title 'a = 0', $b using 1:2 with lines lw 2 title 'b = 0', \
   sprintf("< awk -F, '$1 == \"root\" { print $2, $3 }' %s/fig01.csv", data) using 1:2 with points pt 7 lc 'black' title 'roots'
 set datafile separator ','
-
-# The price of a certificate.
-unset key
-set key outside below noenhanced
-set terminal svg size 1100,820 font 'sans,13' background rgb 'white'
-set output data.'/tangency.svg'
-set multiplot layout 2,2 title 'Rays near a tangency' font ',14'
-solvers = 'bernstein newton laguerre aberth durand_kerner'
-set logscale xy
-set format xy '10^{%L}'
-set xlabel 'distance to the tangency'
-set xrange [1e-15:1] reverse
-do for [polish in 'on off'] {
-  set title 'time a ray, polish '.polish
-  set ylabel 'microseconds'
-  set yrange [1:1000]
-  plot for [m = 1:5] data.'/tangency.csv' using 1:(strcol(2) eq word(solvers, m) && strcol(3) eq polish ? $4 : NaN) \
-       with linespoints lt m title word(solvers, m)
-}
-set title 'largest error of T, relative, of the hits found'
-set ylabel 'error'
-set yrange [1e-17:1e-5]
-plot for [m = 1:5] data.'/tangency.csv' using 1:(strcol(2) eq word(solvers, m) && strcol(3) eq 'off' && $6 > 0 ? $6 : NaN) \
-     with linespoints lt m title word(solvers, m).', off', \
-     data.'/tangency.csv' using 1:(strcol(2) eq 'bernstein' && strcol(3) eq 'on' ? $6 : NaN) \
-     with lines lc 'black' lw 2 title 'bernstein and the others, on', \
-     data.'/tangency.csv' using 1:(strcol(2) eq 'aberth' && strcol(3) eq 'on' ? $6 : NaN) \
-     with lines lc 'black' lw 2 dt 2 title 'aberth, on'
-set title 'share of hits lost, polish off (on: none)'
-set ylabel 'share'
-unset logscale y
-set format y '%g'
-set yrange [0:1.02]
-plot for [m = 1:5] data.'/tangency.csv' using 1:(strcol(2) eq word(solvers, m) && strcol(3) eq 'off' ? $7 : NaN) \
-     with linespoints lt m title word(solvers, m)
-unset multiplot

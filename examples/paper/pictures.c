@@ -78,12 +78,3 @@ bool picture_end(struct image *image, bool encoded, const char *name, const char
   free(bytes);
   return file != NULL && fclose(file) == 0 && good;
 }
-
-void picture_scale(double x, float out_rgb[3])
-{
-  static const double colours[5][3] = {
-    {0.20, 0.10, 0.35}, {0.20, 0.35, 0.60}, {0.15, 0.60, 0.55}, {0.50, 0.80, 0.30}, {0.98, 0.90, 0.20}};
-  const double at = fmin(fmax(x, 0), 1) * 4;
-  const int k = at < 3 ? (int)at : 3;
-  for (int c = 0; c < 3; c++) out_rgb[c] = (float)(colours[k][c] + (at - k) * (colours[k + 1][c] - colours[k][c]));
-}

@@ -27,7 +27,4 @@ bool picture_begin(size_t width, size_t height, struct image *out);
  * its values are display codes, not linear. */
 bool picture_end(struct image *image, bool encoded, const char *name, const char *suffix);
 
-/* The colour of x in [0,1], from dark blue over green to yellow. Values beyond have the colour of that end. */
-void picture_scale(double x, float out_rgb[3]);
-
 #endif

@@ -72,6 +72,7 @@ static void find(const struct root_problem *problem, const struct solver_options
 
 struct summary {
   double iterations; /* mean over the roots sought */
+  double deviation;  /* standard error of that mean, from the polynomials' own means */
   double seconds;    /* mean over the solves */
   double accurate;   /* share of the values that meet eq 11 */
   double error;      /* mean of log10 (|P(z)| / delta(z)), eq 11's two sides */
@@ -81,7 +82,7 @@ struct summary {
 static struct summary measure(int degree, const struct solver_options *options, bool first_only, uint64_t seed)
 {
   struct summary out = {0};
-  double values = 0.0, sought = 0.0;
+  double values = 0.0, sought = 0.0, sum = 0.0, squares = 0.0;
   for (int i = 0; i < POLYNOMIALS; i++) {
     struct root_problem problem;
     struct root_estimates roots;
@@ -90,6 +91,7 @@ static struct summary measure(int degree, const struct solver_options *options, 
     for (int repeat = 0; repeat < repeats; repeat++) find(&problem, options, first_only, &roots);
     out.seconds += (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / repeats / POLYNOMIALS;
     const int count = first_only && !at_once(options) ? 1 : roots.count;
+    const double steps_before = out.iterations, sought_before = sought;
     for (int r = 0; r < count; r++) {
       const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);
       out.accurate += ratio < 1.0;
@@ -99,7 +101,10 @@ static struct summary measure(int degree, const struct solver_options *options, 
       sought += roots.iterations[r] > 0;
       out.unconverged += !roots.converged[r];
     }
+    const double mean = (out.iterations - steps_before) / fmax(sought - sought_before, 1.0);
+    sum += mean, squares += mean * mean;
   }
+  out.deviation = sqrt(fmax(squares / POLYNOMIALS - sum * sum / (POLYNOMIALS * POLYNOMIALS), 0.0) / (POLYNOMIALS - 1));
   out.accurate /= values;
   out.error /= values;
   out.unconverged /= values;
@@ -109,15 +114,15 @@ static struct summary measure(int degree, const struct solver_options *options, 
 
 static void degrees(void)
 {
-  printf("degree,method,iterations_one,us_iteration,us_one,us_all\n");
+  printf("degree,method,iterations_one,us_iteration,us_one,us_all,deviation\n");
   for (int degree = 2; degree <= LAST_DEGREE; degree += degree < 6 ? 1 : 2) {
     for (int m = 0; m < METHODS; m++) {
       const struct solver_options options = paper_options(methods[m], 1e-6);
       const struct summary one = measure(degree, &options, true, (uint64_t)degree);
       const struct summary all = measure(degree, &options, false, (uint64_t)degree);
       const double one_root = at_once(&options) ? one.seconds / degree : one.seconds;
-      printf("%d,%s,%.3f,%.4f,%.4f,%.4f\n", degree, methods[m], one.iterations, one_root / one.iterations * 1e6,
-             one_root * 1e6, all.seconds * 1e6);
+      printf("%d,%s,%.3f,%.4f,%.4f,%.4f,%.3f\n", degree, methods[m], one.iterations, one_root / one.iterations * 1e6,
+             one_root * 1e6, all.seconds * 1e6, one.deviation);
     }
   }
 }

@@ -10,6 +10,7 @@
  * projected  another root of r is near in u, but that of a point with another v, often outside the patch
  * rounding   the method finds the hit if r is written in Bernstein form, where its coefficients have smaller errors
  * euclid     the method finds the hit if v is the null vector's
+ * loose      the method finds the hit with eps = 1e-12
  * other
  *
  * `causes conditions` prints, hit by hit, condition numbers and errors of u instead (conditions_of). */
@@ -34,7 +35,7 @@
 #define BEZOUT_NAME(name) bezout_quad_##name
 #include "algebra/bezout.h"
 
-enum { DEGREE = 18, RAYS = 32, FULL_NETS = 400, LEAST_NETS = 4, METHODS = 3, WAYS = 5 };
+enum { DEGREE = 18, RAYS = 32, FULL_NETS = 50, LEAST_NETS = 4, METHODS = 3, WAYS = 6 };
 
 /* Roots nearer than this in u are near: of 18 roots evenly in [0,1], each is 0.06 from the next. */
 #define NEAR_U 0.03
@@ -46,10 +47,10 @@ enum { DEGREE = 18, RAYS = 32, FULL_NETS = 400, LEAST_NETS = 4, METHODS = 3, WAY
 typedef double net4[4][4][3];
 
 static const char *const METHOD[METHODS] = {"newton", "laguerre", "aberth"};
-static const char *const WAY[WAYS] = {"", "deflation composite", "radii polygon", "basis bernstein",
-                                      "back_substitution null_vector"};
+static const char *const WAY[WAYS] = {
+  "", "deflation composite", "radii polygon", "basis bernstein", "back_substitution null_vector", "tolerance 1e-12"};
 
-enum cause { LOWER, FAR, TANGENT, PROJECTED, ROUNDING, EUCLID, OTHER, CAUSES };
+enum cause { LOWER, FAR, TANGENT, PROJECTED, ROUNDING, EUCLID, LOOSE, OTHER, CAUSES };
 
 /* ---- classes of nets and rays ---- */
 
@@ -328,6 +329,7 @@ static bool count_rays(net4 P, size_t count, const struct ray rays[], const char
                                : geometry != OTHER               ? geometry
                                : found[3]                        ? ROUNDING
                                : found[4]                        ? EUCLID
+                               : found[5]                        ? LOOSE
                                                                  : OTHER;
       out[m].cause[cause]++;
     }
@@ -374,7 +376,7 @@ static void print_counts(const char *name, bool exchanged, const struct counts c
 static bool count_picture(const char *name, const char *file, const char *items, bool exchanged)
 {
   enum { WIDTH = 320, HEIGHT = 240 };
-  const int side = effort_fraction() >= 0.5 ? 1 : 4;
+  const int side = effort_fraction() >= 0.5 ? 1 : 8;
   static struct ray rays[WIDTH * HEIGHT];
   char path[400];
   snprintf(path, sizeof path, "%s/scenes/%s", PSCN_SOURCE_DIR, file);
@@ -392,8 +394,10 @@ static bool count_picture(const char *name, const char *file, const char *items,
   if (exchanged) exchange(P);
   const bool good = count_rays(P, count, rays, items, counts);
   print_counts(name, exchanged, counts);
-  /* What the page says of the order of the parameters: Aberth's method does not care. */
-  const bool facts = strcmp(name, "Fig 17") != 0 || (counts[2].lost * 20 < counts[0].lost && counts[0].lost > 0);
+  /* What the page says of Fig 17, with the parameters in either order: Newton's method loses many hits, nearly all to
+   * far roots, and Aberth's next to none. */
+  const bool facts = strcmp(name, "Fig 17") != 0 || (counts[2].lost * 20 < counts[0].lost && counts[0].lost > 0 &&
+                                                     counts[0].cause[FAR] * 10 > counts[0].lost * 9);
   scene_destroy(scene);
   return good && facts;
 }
@@ -461,8 +465,8 @@ int main(int argc, char **argv)
 {
   if (argc > 1 && strcmp(argv[1], "conditions") == 0) return conditions() ? EXIT_SUCCESS : EXIT_FAILURE;
   bool good = true;
-  printf(
-    "class,parameters,method,rays,hits,invented,lost,low,high,lower,far,tangent,projected,rounding,euclid,other\n");
+  printf("class,parameters,method,rays,hits,invented,lost,low,high,lower,far,tangent,projected,rounding,euclid,loose,"
+         "other\n");
   for (int exchanged = 0; exchanged < 2; exchanged++) {
     good &= count_picture("Fig 16", "paper.pscn", "start previous tolerance 1e-2", exchanged);
     good &= count_picture("Fig 17", "paper_magnified.pscn", "start previous tolerance 1e-10", exchanged);
