@@ -5,7 +5,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
-#include "intersect/exact/zoom.h"
+#include "intersect/exact/judge.h"
 #include "intersect/point.h"
 
 /* ---- the patch in wide arithmetic, from its control points P ---- */
@@ -38,22 +38,6 @@ static bool wide_across(double (*P)[4][3], wide u, wide v, wide least, wide n[3]
   }
   for (int c = 0; c < 3; c++) n[c] /= size;
   return size > least;
-}
-
-/* t at which the ray passes through the tangent plane at (u,v), next to which its root is. It is right to the last
- * places of the point's distance from the ray's start, however small that is beside the patch. 0 if there is none. */
-static wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
-{
-  wide wu[4], wv[4], unused[3], n[3], above = 0, along = 0;
-  if (!wide_across(P, u, v, 0, n)) return 0;
-  wide_weights(u, wu, unused);
-  wide_weights(v, wv, unused);
-  for (int c = 0; c < 3; c++) {
-    wide from_start = 0;
-    for (int k = 0; k < 16; k++) from_start += wu[k / 4] * wv[k % 4] * ((wide)P[k / 4][k % 4][c] - ray->origin[c]);
-    above += n[c] * from_start, along += n[c] * ray->direction[c];
-  }
-  return along != 0 ? above / along : 0;
 }
 
 /* Su x Sv at (u,v), of unit length. Returns false if it is no longer than `least`. */
@@ -167,17 +151,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
                     struct hit *out)
 {
   double(*P)[4][3] = model->scene->patches[root->patch].P;
-  if (!root->sharp) {
-    struct zoom zoom;
-    struct patch_room room;
-    const struct model_patch *patch = model_patch_at(model, root->patch, &room);
-    zoom_start(patch, P, ray, &zoom);
-    (void)zoom_sharpen(&zoom, root); /* or its bounds hold as before */
-  }
-  if (root->t_error > UNIT_ROUNDOFF / 4 * fabs((double)root->t)) {
-    const wide t = wide_t(P, ray, root->u, root->v);
-    if (fabs((double)(t - root->t)) <= root->t_error) root->t = t;
-  }
+  (void)search_sharpen(model, ray, root); /* or its bounds hold as before */
   const double u = (double)root->u, v = (double)root->v;
   const bool at[4] = {u <= root->radius_u, 1 - u <= root->radius_u, v <= root->radius_v, 1 - v <= root->radius_v};
   unsigned borders = 0;
@@ -192,7 +166,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
 void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe, struct hit *out)
 {
   *out = (struct hit){.certainty = CERTAINTY_GRAZING, .u = maybe->u, .v = maybe->v};
-  answer(model, ray, maybe->patch, maybe->borders, maybe->t, out);
+  answer(model, ray, maybe->patch, 0, maybe->t, out);
 }
 
 bool hit_scale_back(struct hit *hit, const struct ray *scaled, int exponent)

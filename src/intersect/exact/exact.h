@@ -1,14 +1,17 @@
-/* The last resort: decides what one ray meets, for it alone, slowly and to the end.
+/* The last resort: decides what one ray meets, for it alone, in exact arithmetic.
  *
  * Internal to src/intersect. Compiled once, scalar, without contraction: its answers are the same bits on every
- * processor. Pure; safe on any thread; uses up to 1.25 MB of stack, for searches within searches. To use it, fill in an
- * exact_case and call exact_closest, exact_occluded or exact_all; exact_root_hit and exact_maybe_hit make the answers.
+ * processor. Pure; safe on any thread; uses up to EXACT_STACK bytes of stack. To use it, fill in an exact_case and call
+ * exact_closest, exact_occluded or exact_all; exact_root_hit and exact_maybe_hit make the answers.
  *
  * The lanes take a root only where double precision leaves no question: the root is proven, strictly inside its patch,
  * strictly within the ray's range, and not next to another one. Everything they leave open comes here as a list of
- * regions (leaves, or parts of a patch cut for a copy). The regions are searched in the order in which the ray meets
- * them, whatever order the lanes left them in. Where doubles cannot tell on which side of something a root lies, wide
- * arithmetic is used.
+ * regions (leaves, or parts of a patch cut for a copy). The order of work: regions.c takes them in the order in which
+ * the ray meets them; sight.c writes a patch, as the ray sees it, as nets of integers; search.c halves them (piece.c)
+ * until each piece has no root or one; judge.c decides what a root means for the answer; all.c and vertex.c count hits.
+ *
+ * A ray meets a patch in its borders and corners, too. All decisions are exact but these: two roots that the ray meets
+ * within 2^-95 of their patches count as met at one t; and what is open when the work is used up is `grazing`.
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H
@@ -32,13 +35,14 @@ struct exact_region {
 /* A proven root, in parameters of the whole patch: the exact ray has exactly one root within the radii. */
 struct exact_root {
   uint32_t patch;
-  bool sharp;                /* refined as far as wide arithmetic allows */
-  wide u, v, t;              /* t in units of the scaled direction */
+  unsigned borders; /* on which it lies exactly: bits as of geometry/edges.h; the parameter across is then 0 or 1 */
+  int side;         /* of a root on one border: the side of the border's curve, as the ray sees it and in the sense of
+                     * the border's parameter, on which the patch lies: 1 left, -1 right, 0 not known */
+  wide u, v, t;     /* t in units of the scaled direction */
   double radius_u, radius_v; /* absolute */
   double t_error;            /* absolute */
-  /* of a sharp root: the patch has no other root whose parameters both lie within this of its own */
-  double alone;
-  bool well_known; /* t also has the accuracy that TIE_ERRORS (sharpen.c) asks for */
+  double alone[2]; /* the patch has no other root whose parameters both lie within this of its own; 0 if not known */
+  bool sharp;      /* known within 2^-95 of its patch, or as well as can be */
 };
 
 /* A certain hit has its parameters to this accuracy. */
@@ -47,13 +51,6 @@ struct exact_root {
 static inline bool exact_root_placed(const struct exact_root *root)
 {
   return root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
-}
-
-/* Whether two roots of one patch may be the same. */
-static inline bool exact_roots_meet(const struct exact_root *a, const struct exact_root *b)
-{
-  return fabs((double)(a->u - b->u)) <= a->radius_u + b->radius_u &&
-         fabs((double)(a->v - b->v)) <= a->radius_v + b->radius_v;
 }
 
 static inline bool exact_region_equal(const struct exact_region *a, const struct exact_region *b)
@@ -68,7 +65,6 @@ void exact_region_join(struct exact_region *region, const struct exact_region *o
 /* A place that may be a hit or not: a point of a patch, its t, and how far off that t may be. */
 struct exact_maybe {
   uint32_t patch;
-  unsigned borders; /* of the patch, on which the point lies; bits as of geometry/edges.h */
   double u, v, t, t_error;
 };
 
@@ -78,25 +74,23 @@ enum { EXACT_REGIONS_MAX = 128 };
 
 /* What a search finds on a ray. */
 enum exact_kind {
-  EXACT_INSIDE, /* a root strictly inside its patch */
-  EXACT_BORDER, /* a root that even wide arithmetic cannot tell from borders of its patch, or a pole that is met */
+  EXACT_INSIDE, /* a root that counts: inside its patch, or where the ray crosses the surface on a border */
+  EXACT_BORDER, /* a root on a border, not settled yet */
   EXACT_OPEN    /* a place that may be a hit or not */
 };
 
 struct exact_found {
   struct exact_root root; /* of an open one only u, v, t and t_error */
   enum exact_kind kind;
-  unsigned borders; /* bits as of geometry/edges.h */
-  int64_t taken;    /* number of the lanes' root that it is; negative: none of theirs */
-  bool tied;        /* made sharp to tell it from another surface's, so its answer must be sharp too */
-  wide least;       /* in a sorted list: lower bound on t of this one and all behind it, errors included */
+  int64_t taken; /* number of the lanes' root that it is; negative: none of theirs */
+  bool tied;     /* made sharp to tell it from another surface's, so its answer must be sharp too */
 };
 
-/* A list that grows by memory_grow unless it is fixed. Zero-initialise it; memory_free `at`. */
+/* A list that grows by memory_grow. Zero-initialise it; memory_free `at`. */
 struct exact_list {
   struct exact_found *at;
   size_t count, room;
-  bool fixed, failed; /* failed: memory was short, and something is missing */
+  bool failed; /* memory was short, and something is missing */
 };
 
 /* What is asked. */
@@ -108,8 +102,7 @@ struct exact_case {
   struct exact_region *regions;    /* in any order; the call reorders and joins them */
   size_t region_count;
   double cut_from; /* neither what was left out nor a doubt begins before this t; infinite for none */
-  uint64_t *work;  /* the work done is added, in boxes examined (judge.h) */
-  uint64_t limit;  /* no more of it may be done */
+  uint64_t *work;  /* the work done is added, in pieces examined (judge.h) */
 };
 
 enum exact_verdict {
@@ -129,7 +122,7 @@ struct exact_decision {
 void exact_closest(const struct exact_case *asked, struct exact_decision *out);
 
 /* all.c: finds all hits of the ray. At first *list holds the roots that the lanes took; in the end it holds the hits in
- * their order: roots inside patches, and open places. `known`, `maybe` and `cut_from` are not used, and the number of
+ * their order: roots that count, and open places. `known`, `maybe` and `cut_from` are not used, and the number of
  * regions has no limit. Returns whether the result is proven. */
 bool exact_all(const struct exact_case *asked, struct exact_list *list);
 
@@ -139,8 +132,8 @@ bool exact_list_add(struct exact_list *list, const struct exact_found *found);
 /* Whether the ray hits anything, or may do so. */
 bool exact_occluded(const struct exact_case *asked);
 
-/* answer.c: the hit at a proven root, refined as far as wide arithmetic allows, or at a point that may be one. t is in
- * units of the scaled direction. */
+/* answer.c: the hit at a proven root, made sharp, or at a point that may be one. t is in units of the scaled
+ * direction. */
 void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
                     struct hit *out);
 void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe,

@@ -1,308 +1,534 @@
-/* Finds all that a ray may meet in a region of a patch, by recursive halving.
+/* Finds all that a ray meets in a region of a patch, by halving pieces of it until each has no root or one (piece.h).
  *
- * A box of parameters is dropped if some linear combination of the two plane polynomials keeps one sign on it (the
- * convex hull property), solved if the certificate finds a root that is alone in it, decided by its fold if it has one
- * (touch.c), and otherwise halved. The box that begins first along the ray is next; those behind the nearest hit so far
- * are dropped.
- *
- * If a combination is indistinguishable from zero on a box, the surface is seen edge-on there, to within about 1e-7 of
- * tangency. The box is then searched by itself, with polynomials that are made for it in fixed point (zoom.h), which
- * scales up what was too small. If some combination is zero even there, and so all over the patch, the ray lies in the
- * plane of a flat patch, or nearly, and meets curves; their first points lie on borders of boxes (curves.h). The judge
- * is told as undecided what even that leaves (a double root, a ray in the surface), and poles that are met only as far
- * as wide arithmetic can tell (pole.c). docs/method.md, "The numbers of the last resort", explains how these constants,
- * those of pole.c and those of zoomed boxes fit together.
+ * The piece that begins first along the ray is next; those behind the nearest hit so far are dropped. A root is then
+ * placed: zoomed in on until it is known on which side of a border, and of the ray's start and end, it lies. That a root
+ * lies exactly on one of them is decided by equality: in a corner of a piece both polynomials are zero; on a border they
+ * have a common zero (sight.h); t of a flat patch is the same all over it. Where two roots are one, or a patch lies along
+ * the ray, pieces become as small as LEAST_SIZE and are told as undecided.
  */
-#include "intersect/exact/search.h"
-
 #include <math.h>
-#include <string.h>
 
 #include "base/real.h"
-#include "geometry/patch.h"
-#include "intersect/exact/curves.h"
-#include "intersect/prepare/leaf.h"
+#include "geometry/edges.h"
+#include "intersect/exact/judge.h"
 
-/* The fraction of the patch's extent below which an undecidable box is not halved further: UNDECIDED_ERRORS of some
- * hundred roundings each, the distance from the ray within which the planes tell nothing. */
-#define SEARCH_RESOLUTION 0x1p-44
+/* Pieces are not halved below this size, as a part of the patch. Roots that the ray passes at a distance of 2^-100 of
+ * the patch from a tangency are 2^-50 apart. */
+#define LEAST_SIZE 0x1p-64
 
-/* The most halvings of a box: down to LEAST_SIZE of the whole box both ways. */
-enum { SEARCH_HALVINGS = 104 };
-#define LEAST_SIZE 0x1p-52
+/* A piece that waits is a sibling of one that is being halved. */
+enum { WAITING_MAX = 2 * 64 + 16 };
 
-/* The most boxes that may wait in the order in which the ray comes to them: at first, and if zoomed. Beyond that, boxes
- * wait only in the order of halving, so there are no more of them than one box can have halvings. */
-enum { SEARCH_AHEAD = 128, CLOSER_AHEAD = 64, SEARCH_STACK = SEARCH_HALVINGS + 2 };
+/* The most zooms into a root, each of up to 2^ZOOM_BITS; what is then not known is undecided. Two make a root sharp. */
+enum { ZOOMS = 6, ZOOM_BITS = 40 };
+#define SHARP 0x1p-95
 
-/* A box is zoomed again if it is this small a part, by area, of the last window, and at most this often, one within the
- * other. Poles have their own numbers (pole.c). */
-#define ZOOM_AGAIN 0x1p-16
-enum { TANGENT_DEPTH = 4 };
+struct waiting {
+  struct piece piece;
+  size_t begin; /* of its nets in the pool */
+  double near, far;
+  int border; /* its roots are those on border[..] of the sight; -1: those off such borders */
+};
 
-/* Each halving adds three additions, on values of the whole box's size, to the rounding of a coefficient. */
-void search_rounding(const struct search *s, const struct box *box, double out[2])
+/* ---- along the ray ---- */
+
+static void set_reach(const struct judge *j, struct waiting *it)
 {
-  for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
+  double least, most;
+  piece_depths(&it->piece, &least, &most);
+  const double one = least / j->sight.along, two = most / j->sight.along;
+  it->near = real_min(one, two), it->far = real_max(one, two);
+  it->near -= 2 * UNIT_ROUNDOFF * fabs(it->near), it->far += 2 * UNIT_ROUNDOFF * fabs(it->far);
 }
 
-/* The same, with what a met pole adds from the distance on at which roots are told. */
-static void search_box_error(const struct search *s, const struct box *box, double out[2])
+/* How a root lies to an end of the ray. */
+enum order { ORDER_BEFORE, ORDER_AT, ORDER_BEHIND, ORDER_UNKNOWN };
+
+/* w at a root, as by piece_depth. */
+struct depth {
+  wide w;
+  double error;
+  bool exact;
+};
+
+/* The product of two doubles is exact in wide arithmetic. */
+static enum order order_to(const struct depth *depth, double along, double t)
 {
-  search_rounding(s, box, out);
-  if (s->met) pole_add_error(s, pole_told_from(s, box), out);
+  if (!(fabs(t) < INFINITY)) return t > 0 ? ORDER_BEFORE : ORDER_BEHIND;
+  const wide bound = (wide)t * along, off = depth->w - bound;
+  if (depth->error > 0 && wide_abs(off) <= depth->error + 4 * WIDE_ROUNDOFF * wide_abs(bound)) return ORDER_UNKNOWN;
+  if (off == 0 && depth->error == 0 && depth->exact) return ORDER_AT;
+  const bool above = off > 0 || (off == 0 && !depth->exact);
+  return above == (along > 0) ? ORDER_BEHIND : ORDER_BEFORE;
 }
 
-void search_tell_maybe(struct search *s, struct box *box, bool small)
-{
-  double u = 0.5, v = 0.5, error[2];
-  search_box_error(s, box, error);
-  if (!small) judge_undecided(s->window.judge, box->near);
-  /* If no point of the box is found on the ray, or one at the ray's start, the box may still hold a hit; any-hit
-   * queries are told so. */
-  if (!small && box->far > s->window.judge->asked->ray->t_min + s->resolution) s->window.judge->cut_short = true;
-  if (!box_onto_ray(box, error, &u, &v) && !small) return;
-  const double t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
-  window_tell_maybe(&s->window, box, u, v, t, real_min(box->far - box->near, s->resolution));
-}
+/* ---- a root's place ---- */
 
-/* Halves across the parameter along which the box is longer as seen along the ray. Hull tests and Newton's method need
- * this: at a tangency boxes become long along the ray and narrow across it. A box seen as a point is halved across the
- * parameter along which it is longer on the ray; if the polynomials are dependent, across the one along which it is
- * longer in space. */
-static void box_halve(const struct search *s, struct box *box, struct box out[2])
-{
-  double along_u, along_v, error[2];
-  box_variation(box, 0, 1, &along_u, &along_v);
-  search_box_error(s, box, error);
-  if (real_max(along_u, along_v) <= FLAT_ERRORS * real_max(error[0], error[1]))
-    box_variation(box, 2, 2, &along_u, &along_v);
-  bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
-  if (pole_narrow(s, box)) across_u = s->divided < 2;
-  if (s->dependent) across_u = s->extent[0] * box->size_u >= s->extent[1] * box->size_v;
-  if (across_u ? box->size_u <= LEAST_SIZE : box->size_v <= LEAST_SIZE) across_u = !across_u;
-  box_cut(box, across_u, out);
-  for (int h = 0; h < 2; h++) window_set_reach(&s->window, &out[h]);
-}
+struct placing {
+  struct judge *j;
+  const struct waiting *from;
+  struct piece piece; /* zoomed in */
+  struct piece_root root;
+  bool corner; /* it is exactly in the corner at `at` */
+  unsigned on; /* borders on which it lies */
+  struct depth depth;
+};
 
-static void search_run(struct search *s, const struct box *whole, struct box waiting[]);
-
-struct search search_closer(const struct search *s, const struct box *box)
+static bool zoom(const struct piece *piece, const struct piece_root *root, struct pool *pool, struct piece *out)
 {
-  struct search closer = {.window = window_closer(&s->window, box),
-                          .ahead = s->window.judge->all ? 0 : CLOSER_AHEAD,
-                          .divided = NO_BORDER,
-                          .resolution = s->resolution};
-  closer.extent[0] = s->extent[0] * box->size_u, closer.extent[1] = s->extent[1] * box->size_v;
-  closer.pole[0] = s->pole[0] && box->u == 0, closer.pole[1] = s->pole[1] && box->u + box->size_u == 1;
-  closer.pole[2] = s->pole[2] && box->v == 0, closer.pole[3] = s->pole[3] && box->v + box->size_v == 1;
-  return closer;
-}
-
-void search_run_closer(struct search *closer, const struct zoomed *zoomed)
-{
-  window_set_depths(&closer->window, zoomed);
-  for (int k = 0; k < 2; k++) closer->error[k] = zoomed->error[k];
-  struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0}, waiting[CLOSER_AHEAD + SEARCH_STACK];
-  memcpy(whole.net, zoomed->net, sizeof whole.net);
-  window_set_reach(&closer->window, &whole);
-  search_run(closer, &whole, waiting);
-}
-
-/* Searches the box by itself, zoomed. Returns whether that was possible. */
-static bool box_zoom(struct search *s, const struct box *box)
-{
-  struct search closer = search_closer(s, box);
-  struct zoomed zoomed;
-  int zeros[4];
-  const bool met = pole_zeros(s, box, zeros);
-  judge_spend(s->window.judge, WORK_ZOOM);
-  const int known = zoom_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, zeros, &zoomed);
-  closer.dependent = known < 2;
-  if (known < (met ? 1 : 2)) {
-    s->dependent = true;
-    return false;
+  struct piece half;
+  for (int axis = 0; axis < 2; axis++) {
+    int exponent;
+    (void)frexp(root->radius, &exponent);
+    const int log2 = -exponent - 4 < 2 ? 2 : -exponent - 4 > ZOOM_BITS ? ZOOM_BITS : -exponent - 4;
+    const double cells = ldexp(1, log2), at = real_clamp(floor(root->at[axis] * cells) - 1, 0, cells - 3);
+    if (!piece_part(axis ? &half : piece, axis, (limb)at, (limb)at + 3, log2, pool, axis ? out : &half)) return false;
   }
-  search_run_closer(&closer, &zoomed);
   return true;
 }
 
-/* Searches a box at poles that the ray meets exactly by itself, zoomed: there both polynomials are divided by the
- * distance from the poles. Returns whether it did. */
-static bool box_zoom_met(struct search *s, const struct box *box)
+/* The corner of the piece that is nearest to the root, if the root may be there and both polynomials are 0 there. */
+static bool in_corner(struct placing *p)
 {
-  int zeros[4];
-  if (s->window.zooms > 0 || s->dependent || !pole_zeros(s, box, zeros)) return false;
-  for (int k = 0; k < 4; k++)
-    if (zeros[k] > 0) judge_pole_met(s->window.judge, k);
-  return box_zoom(s, box);
-}
-
-/* Whether to zoom a box that double precision cannot decide. If a combination is flat on it: once, and again when it is
- * a small part of the last window, because roots next to a tangency are as far apart as the square root of the ray's
- * distance from it. If only a bent combination is flat: when the box is that small both ways, because long boxes become
- * flat. */
-static bool box_asks_zoom(const struct search *s, const struct box *box, bool flat)
-{
-  if (s->dependent) return false;
-  if (s->divided != NO_BORDER) return flat && s->window.zooms == 1;
-  if (flat && s->window.zooms == 0) return true;
-  const double longer = real_max(box->size_u, box->size_v), part = flat ? box->size_u * box->size_v : longer * longer;
-  return s->window.zooms < TANGENT_DEPTH && part <= ZOOM_AGAIN;
-}
-
-/* Whether to zoom again a box whose root is proven but not placed well: rounding in a zoomed window is relative to its
- * size, and the box may be a small part of it. A root found without zoom goes to the judge, who has it sharpened. */
-static bool root_asks_zoom(const struct search *s, const struct exact_root *root, int border)
-{
-  return !exact_root_placed(root) && border == NO_BORDER && s->window.zooms > 0 && s->window.zooms < TANGENT_DEPTH;
-}
-
-/* Whether the box is small enough to be told as undecided: along the ray, and in all directions or at least as seen. */
-static bool box_small(const struct search *s, const struct box *box, enum verdict verdict)
-{
-  return box->far - box->near <= s->resolution &&
-         (verdict == VERDICT_POINT || s->extent[0] * box->size_u + s->extent[1] * box->size_v <= SEARCH_RESOLUTION);
-}
-
-/* Where a curve crosses a side of a box aslant, the place is known no better than the polynomial's error over the
- * slant, on small boxes as on large ones. Down to a slant of about 1 : FLAT_SLANT, as of ties, it is told with that
- * error; what is flatter is halved until all of a side is on the ray as far as can be told. */
-#define FLAT_SLANT 256
-
-/* Tries to decide the box where the two polynomials are one and the ray meets curves. The first point on them may be a
- * hit. If it lies before the ray's start, the point just after the start takes its place, or halving goes on. */
-static bool box_flat(struct search *s, struct box *box, const double error[2])
-{
-  double u = 0, v = 0, off = 0;
-  const enum curves curves = curves_begin(box, error, s->window.depth.to_t < 0 ? -1 : 1, &u, &v, &off);
-  if (curves != CURVES_BEGIN) return curves == CURVES_NONE;
-  const double t_error = real_max(window_length(&s->window, off), s->resolution);
-  if (!(t_error <= FLAT_SLANT * s->resolution)) return false;
-  const struct ray *ray = s->window.judge->asked->ray;
-  const double begin = ray->t_min + t_error;
-  double t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
-  if (!(t > begin)) {
-    if (!curves_at(box, error, depth_of_t(&s->window.depth, begin + t_error), &u, &v)) return false;
-    t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
-    if (!(t > begin && t < ray->t_max)) return false;
-  }
-  window_tell_maybe(&s->window, box, u, v, t, t_error);
+  const int u = p->root.at[0] >= 0.5, v = p->root.at[1] >= 0.5;
+  if (fabs(p->root.at[0] - u) > p->root.radius || fabs(p->root.at[1] - v) > p->root.radius) return false;
+  if (!piece_corner_root(&p->piece, u, v)) return false;
+  const int limbs = p->piece.limbs[NET_W];
+  p->root.at[0] = u, p->root.at[1] = v, p->root.radius = 0, p->corner = true;
+  p->depth.error = 0;
+  p->depth.w = limbs_wide(p->piece.net[NET_W] + (12 * u + 3 * v) * limbs, limbs, p->piece.exponent[NET_W],
+                          &p->depth.exact);
   return true;
 }
 
-/* Returns whether nothing is left to do with the box. */
-static bool box_decide(struct search *s, struct box *box)
+/* Whether the root is the common zero of the two polynomials on that border: then it is exactly there. */
+static bool on_border(const struct placing *p, int border)
 {
-  if (box->near > s->window.judge->limit || box->far < s->window.judge->asked->ray->t_min) return true;
-  const int border = pole_of_box(s, box);
-  if (s->met && border == s->divided) {
-    const enum pole_box pole = pole_decide(s, box);
-    if (pole != POLE_BOX_OPEN) return pole == POLE_BOX_DECIDED;
+  const struct waiting *from = p->from;
+  double at;
+  if (from->border >= 0 || !sight_common(&p->j->sight.off, border, &at)) return false;
+  const int along = border < 2;
+  const double here = (at - (double)from->piece.low[along]) / from->piece.size[along];
+  return here >= -PIECE_MARGIN / 2 && here <= 1 + PIECE_MARGIN / 2; /* there is one root in all that */
+}
+
+/* Sets p->on. Returns whether the root is in the patch: ORDER_BEHIND for yes, ORDER_BEFORE for no. */
+static enum order in_patch(struct placing *p)
+{
+  const int own = p->from->border >= 0 ? p->j->sight.border[p->from->border].border : -1;
+  unsigned unknown = 0;
+  p->on = own >= 0 ? 1u << own : 0;
+  for (int border = 0; border < 4; border++) {
+    if (border == own || !(p->piece.borders >> border & 1)) continue;
+    const double at = p->root.at[border / 2], inside = border & 1 ? 1 - at : at;
+    if (inside < -p->root.radius) return ORDER_BEFORE;
+    if (inside <= p->root.radius) unknown |= 1u << border;
   }
-  if (box_zoom_met(s, box) || pole_zoom(s, box, border)) return true;
-  double error[2];
-  search_box_error(s, box, error);
-  const enum verdict verdict = box_test(box, error);
-  if (verdict == VERDICT_EMPTY || (s->dependent && box_flat(s, box, error))) return true;
-  double root[2] = {0.5, 0.5}, radius[2];
-  if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius)) {
-    struct exact_root found = window_root(&s->window, box, root, radius);
-    const bool far = pole_far(s, box, root), zoomed = far ? root_asks_zoom(s, &found, border) : pole_asks_zoom(s, box);
-    if (zoomed && box_zoom(s, box)) return true;
-    if (far) {
-      judge_root(s->window.judge, &found);
-      return true;
+  if (p->corner || (unknown && in_corner(p))) {
+    p->on |= unknown;
+    return ORDER_BEHIND;
+  }
+  for (int border = 0; border < 4; border++)
+    if (unknown >> border & 1 && on_border(p, border)) p->on |= 1u << border, unknown &= ~(1u << border);
+  return unknown ? ORDER_UNKNOWN : ORDER_BEHIND;
+}
+
+static enum order in_range(struct placing *p)
+{
+  const struct ray *ray = p->j->asked->ray;
+  for (int tries = 0;; tries++) {
+    const enum order start = order_to(&p->depth, p->j->sight.along, ray->t_min);
+    const enum order end = order_to(&p->depth, p->j->sight.along, ray->t_max);
+    if (start == ORDER_BEFORE || start == ORDER_AT || end == ORDER_BEHIND || end == ORDER_AT) return ORDER_BEFORE;
+    if (start == ORDER_BEHIND && end == ORDER_BEFORE) return ORDER_BEHIND;
+    if (tries > 0 || p->corner || !in_corner(p)) return ORDER_UNKNOWN;
+  }
+}
+
+/* The sign of the quotient (sight.h) next to the root, which is on that border; 0 if that is not known. */
+static int quotient_sign(const struct placing *p, const struct sight_border *border)
+{
+  struct pool *pool = &p->j->pool;
+  const size_t before = pool->used;
+  struct piece half, part;
+  const int along = border->border < 2;
+  const double cells = 0x1p30, here = (double)p->piece.low[along] + p->piece.size[along] * p->root.at[along];
+  const double at = real_clamp(floor(here * cells) - 1, 0, cells - 3);
+  const limb end = border->border & 1 ? (limb)cells - 1 : 0;
+  int positive = 0, negative = 0;
+  if (border->side != 0 && piece_part(&border->off, along, (limb)at, (limb)at + 3, 30, pool, &half) &&
+      piece_part(&half, 1 - along, end, end + 1, 30, pool, &part))
+    for (int c = 0; c < 16; c++)
+      positive += part.value[NET_B][c / 4][c % 4] > 0, negative += part.value[NET_B][c / 4][c % 4] < 0;
+  pool->used = before;
+  return (positive == 16) - (negative == 16);
+}
+
+/* See exact_root.side. Let T be the border's tangent as the ray sees it, and X a point of the patch near to the root. A
+ * regular root has cross(T,X) > 0 if the Jacobian's sign, and the ways in which the border and the way inward run, say
+ * so. On a line through the origin T is the kept polynomial's derivative along the border over its control value, times
+ * that point; and the quotient's sign is that of cross(X, point). */
+static int border_side(const struct placing *p)
+{
+  static const int sense[4] = {-1, 1, 1, -1};
+  const struct sight *sight = &p->j->sight;
+  const int border = __builtin_ctz(p->on);
+  if (p->on & (p->on - 1)) return 0;
+  if (p->from->border < 0) return sense[border] * p->root.turn * sight->flip;
+  const struct sight_border *own = &sight->border[p->from->border];
+  return -sense[border] * p->root.turn * own->side * quotient_sign(p, own);
+}
+
+static struct exact_root found_root(const struct placing *p)
+{
+  struct exact_root out = {.patch = p->j->patch, .borders = p->on};
+  double radius[2];
+  wide at[2];
+  for (int k = 0; k < 2; k++) {
+    at[k] = p->piece.low[k] + (wide)p->piece.size[k] * p->root.at[k];
+    radius[k] = p->piece.size[k] * p->root.radius + (double)(4 * WIDE_ROUNDOFF);
+    const wide first = (at[k] - p->from->piece.low[k]) / p->from->piece.size[k];
+    out.alone[k] = (double)p->from->piece.size[k] * (PIECE_MARGIN + (double)(first < 0.5 ? first : 1 - first));
+    if (p->from->border >= 0 && p->j->sight.border[p->from->border].border / 2 == k) out.alone[k] = 0;
+    for (int end = 0; end < 2; end++)
+      if (p->on >> (2 * k + end) & 1) at[k] = end, radius[k] = 0;
+  }
+  out.u = at[0], out.v = at[1], out.radius_u = radius[0], out.radius_v = radius[1];
+  out.sharp = p->corner || (radius[0] <= SHARP && radius[1] <= SHARP);
+  out.t = p->depth.w / p->j->sight.along;
+  out.t_error = p->depth.error / fabs(p->j->sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(out.t));
+  return out;
+}
+
+/* Tells of a root that piece_root has found; or, of radius 0, of one in the piece's corner where the Jacobian may vanish:
+ * within the patch the ray may touch the surface there, so it does not count among all hits. */
+static void tell_root(struct judge *j, const struct waiting *it, const struct piece_root *root)
+{
+  const size_t before = j->pool.used;
+  const bool touched = root->radius == 0;
+  struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
+  for (int zooms = 0;; zooms++) {
+    if (p.corner) p.corner = false, (void)in_corner(&p);
+    else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
+    const enum order inside = in_patch(&p), within = inside == ORDER_BEFORE ? ORDER_BEFORE : in_range(&p);
+    if (inside == ORDER_BEFORE || within == ORDER_BEFORE) break;
+    struct exact_root found = found_root(&p);
+    if (inside == ORDER_BEHIND && within == ORDER_BEHIND && (!p.on || found.sharp)) {
+      if (p.on) found.side = border_side(&p);
+      if (touched && !p.on && j->all)
+        judge_maybe(j, (double)found.u, (double)found.v, (double)found.t, found.t_error, (double)found.t);
+      else judge_root(j, &found);
+      break;
     }
+    struct piece closer;
+    judge_spend(j, WORK_SIGHT);
+    enum piece_verdict verdict = PIECE_OPEN;
+    if (zooms < ZOOMS && zoom(&p.piece, &p.root, &j->pool, &closer)) verdict = piece_root(&closer, &j->pool, &p.root);
+    if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
+    if (verdict == PIECE_OPEN) {
+      const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
+      if (within == ORDER_UNKNOWN) judge_undecided(j, from);
+      else judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
+      break;
+    }
+    p.piece = closer;
   }
-  bool bent_flat = false;
-  if (!s->dependent && window_touched(&s->window, box, error, s->window.zooms == 0 && border == NO_BORDER, &bent_flat))
+  j->pool.used = before;
+}
+
+/* ---- corners ---- */
+
+/* Whether a combination of the net's polynomials is positive on the piece but for that corner, where it is 0. */
+static bool positive_but(double net[4][4], int u, int v)
+{
+  for (int c = 0; c < 16; c++)
+    if (net[c / 4][c % 4] < 0) return false;
+  return net[3 - u][v] > 0 && net[u][3 - v] > 0 && net[3 - u][3 - v] > 0;
+}
+
+/* Whether a root in the corner (u,v), each 0 or 3, is the only one of the piece, though the Jacobian may vanish there:
+ * where a handle has no length, or both tangents are one line. The combinations tried are that which grows alike to both
+ * sides, and those that are zero at a neighbouring control point. */
+static bool corner_alone(struct judge *j, const struct piece *piece, int u, int v)
+{
+  double net[4][4], p[2] = {0, 0};
+  for (int side = 0; side < 2; side++) {
+    const int row = side ? u : 3 - u, column = side ? 3 - v : v;
+    const double x[2] = {piece->value[0][row][column], piece->value[1][row][column]}, length = hypot(x[0], x[1]);
+    for (int k = 0; k < 2; k++) p[k] += length > 0 ? x[k] / length : 0;
+  }
+  if (piece_weigh(piece, p, &j->pool, net) && positive_but(net, u, v)) return true;
+  for (int side = 0; side < 4; side++) {
+    const int at = 4 * (side & 1 ? u : u ? 2 : 1) + (side & 1 ? (v ? 2 : 1) : v);
+    limb minus[PIECE_LIMBS_MAX];
+    const int minus_of = side < 2 ? 0 : 1, limbs[2] = {piece->limbs[0], piece->limbs[1]};
+    const limb *x[2] = {piece->net[0] + at * limbs[0], piece->net[1] + at * limbs[1]};
+    limbs_copy(minus, limbs[minus_of], x[minus_of], limbs[minus_of]), limbs_negate(minus, limbs[minus_of]);
+    const struct weight first = {minus_of ? minus : x[1], limbs[1], 0}, second = {minus_of ? x[0] : minus, limbs[0], 0};
+    const size_t before = j->pool.used;
+    int length;
+    const limb *combined = piece_combine(piece, first, second, &j->pool, &length);
+    if (combined) (void)net_round(combined, length, net);
+    j->pool.used = before;
+    if (combined && positive_but(net, u, v)) return true;
+  }
+  return false;
+}
+
+/* Decides a piece with a root in one of its corners. */
+static bool decide_corner(struct judge *j, const struct waiting *it)
+{
+  for (int corner = 0; corner < 4; corner++) {
+    const int u = corner / 2, v = corner % 2;
+    if (!piece_corner_root(&it->piece, u, v) || !corner_alone(j, &it->piece, 3 * u, 3 * v)) continue;
+    const struct piece_root root = {.at = {u, v}, .radius = 0};
+    tell_root(j, it, &root);
     return true;
-  const bool flat = verdict != VERDICT_OPEN, small = flat && box_small(s, box, verdict);
-  const bool zoomed = (flat || bent_flat) && (box_asks_zoom(s, box, flat) || (!s->dependent && pole_asks_zoom(s, box)));
-  if (zoomed && border == NO_BORDER && box_zoom(s, box)) return true;
-  if (!small && box->halvings < SEARCH_HALVINGS) return false;
-  search_tell_maybe(s, box, small);
+  }
+  return false;
+}
+
+/* ---- the search ---- */
+
+/* Tells of a point of a piece that is left undecided. */
+static void tell_open(struct judge *j, const struct waiting *it)
+{
+  const double u = real_clamp((double)(it->piece.low[0] + (wide)it->piece.size[0] / 2), 0, 1);
+  const double v = real_clamp((double)(it->piece.low[1] + (wide)it->piece.size[1] / 2), 0, 1);
+  judge_maybe(j, u, v, it->near / 2 + it->far / 2, it->far / 2 - it->near / 2, it->near);
+}
+
+/* Where a and b are multiples of each other the ray meets curves. If t changes along them all over the piece, none of
+ * them begins within it, and those that begin on the patch's borders are found there. */
+static bool decide_curves(struct judge *j, const struct waiting *it)
+{
+  j->doubt |= j->all;
+  judge_spend(j, WORK_CURVES);
+  if (it->near > j->asked->ray->t_min && piece_depth_turns(&it->piece, &j->pool)) return true;
+  if (it->piece.size[0] > LEAST_SIZE || it->piece.size[1] > LEAST_SIZE) return false;
+  tell_open(j, it);
   return true;
 }
 
-/* The next box to examine: the one that begins first along the ray; the last of those that begin at one place. */
-static int next_box(const struct search *s, const struct box waiting[], int count)
+static bool decide(struct judge *j, const struct waiting *it)
 {
-  int next = count - 1;
-  double before = waiting[next].near - s->resolution;
-  for (int n = next; n-- > 0 && count <= s->ahead;)
-    if (waiting[n].near < before) next = n, before = waiting[n].near - s->resolution;
-  return next;
+  struct piece_root root;
+  if (it->border < 0 && j->sight.dependent) return decide_curves(j, it);
+  const enum piece_verdict verdict = piece_root(&it->piece, &j->pool, &root);
+  if (verdict == PIECE_ROOT) tell_root(j, it, &root);
+  if (verdict != PIECE_OPEN || decide_corner(j, it)) return true;
+  if (it->piece.size[0] > LEAST_SIZE || it->piece.size[1] > LEAST_SIZE) return false;
+  tell_open(j, it);
+  return true;
 }
 
-/* Searches the box `whole`, which is set, as is all that the search starts with. waiting: room for s->ahead and
- * SEARCH_STACK boxes. */
-static void search_run(struct search *s, const struct box *whole, struct box waiting[])
+static bool beyond(const struct judge *j, const struct waiting *it)
 {
-  waiting[0] = *whole;
-  for (int count = 1; count > 0;) {
-    const int next = next_box(s, waiting, count);
-    struct box box = waiting[next];
-    waiting[next] = waiting[--count];
-    judge_spend(s->window.judge, 1);
-    const bool decided = box_decide(s, &box);
-    if (decided) continue;
-    if (s->window.judge->work <= 0) {
-      search_tell_maybe(s, &box, false);
-      while (count-- > 0)
-        if (waiting[count].near <= s->window.judge->limit) search_tell_maybe(s, &waiting[count], false);
-      return;
+  return it->near > j->limit || it->far < j->asked->ray->t_min;
+}
+
+/* Moves the piece's nets to that place in the pool, which is not behind them. */
+static void move_nets(struct judge *j, struct waiting *it, size_t to)
+{
+  it->begin = to;
+  for (int k = 0; k < NETS; k++) {
+    const size_t limbs = 16 * (size_t)it->piece.limbs[k];
+    memmove(j->pool.at + to, it->piece.net[k], limbs * sizeof(limb));
+    it->piece.net[k] = j->pool.at + to, to += limbs;
+  }
+  j->pool.used = to;
+}
+
+/* What it takes to examine a piece. */
+static int work_of(const struct piece *piece)
+{
+  return 1 + (piece->limbs[NET_A] + piece->limbs[NET_B] + piece->limbs[NET_W]) / WORK_LIMBS;
+}
+
+/* Replaces the piece, of which the pool has nothing behind, by its halves, the one that begins first last. Returns how
+ * many remain of them, or -1 if there was no room. */
+static int halve(struct judge *j, const struct waiting *it, struct waiting out[2])
+{
+  struct piece half[2];
+  int axis = piece_longer(&it->piece), count = 0;
+  if (it->piece.size[axis] <= LEAST_SIZE) axis = 1 - axis;
+  const bool grows = piece_depth_grows(&it->piece, axis) == (j->sight.along > 0);
+  if (!piece_halve(&it->piece, axis, grows, &j->pool, half)) return -1;
+  judge_spend(j, work_of(&half[0]) + work_of(&half[1]));
+  for (int h = 0; h < 2; h++) {
+    struct waiting next = {.piece = half[h], .border = it->border};
+    piece_measure(&next.piece);
+    set_reach(j, &next);
+    if (!beyond(j, &next) && !piece_misses(&next.piece)) out[count++] = next;
+  }
+  j->pool.used = it->begin;
+  for (int h = 0; h < count; h++) move_nets(j, &out[h], j->pool.used);
+  return count;
+}
+
+static void search_run(struct judge *j, struct waiting waiting[], int count)
+{
+  while (count > 0) {
+    const struct waiting it = waiting[--count];
+    struct waiting half[2];
+    int halves = 0;
+    if (!beyond(j, &it) && !decide(j, &it)) {
+      halves = j->work > 0 && count + 2 <= WAITING_MAX ? halve(j, &it, half) : -1;
+      if (halves < 0) judge_left(j, it.near, it.far), halves = 0;
     }
-    box_halve(s, &box, &waiting[count]);
-    count += 2;
+    if (halves == 0) j->pool.used = it.begin;
+    for (int h = 0; h < halves; h++) waiting[count++] = half[h];
   }
 }
 
-/* Whether the region is a leaf of its patch, kept or not. */
-static bool is_leaf(const struct model *model, const struct exact_region *region)
+/* ---- regions ---- */
+
+/* Columns of leaves as a part [from, to] / 2^log2 that holds them. */
+struct cells {
+  limb from, to;
+  int log2;
+};
+
+static struct cells cells_of(unsigned column, unsigned span, unsigned split)
 {
-  return region->span[0] == 1 && region->span[1] == 1 && !model->cuts[region->patch].copied;
+  int log2 = 0;
+  while (1u << log2 < split) log2++;
+  if (split & (split - 1)) log2 += 6;
+  const limb of = (limb)1 << log2;
+  return (struct cells){column * of / split, ((column + span) * of + split - 1) / split, log2};
 }
 
-/* Sets the search of a region, and its whole box. */
-static void search_begin(struct judge *j, const struct exact_region *region, struct search *s, struct box *whole)
+static bool region_begin(struct judge *j, const struct exact_region *region, const struct piece *whole,
+                         struct waiting *out)
 {
-  struct model_patch *patch = j->prepared;
-  const struct local_ray *ray = &j->local;
-  struct patch_part part;
-  if (region->leaf) {
-    memcpy(part.x, region->leaf->x, sizeof part.x), memcpy(part.first, region->leaf->first, sizeof part.first);
-  } else {
-    const struct part_grid grid = {{patch->cut.split[0], patch->cut.split[1]},
-                                   {region->span[0], region->span[1]},
-                                   is_leaf(j->asked->model, region) ? LEAF_MARGIN : 0};
-    patch_parts(patch, &grid, 1, (const uint16_t(*)[2])region->column, &part);
+  struct piece half;
+  const uint16_t *split = j->asked->model->cuts[region->patch].split;
+  out->begin = j->pool.used;
+  for (int k = 0; k < 2; k++) {
+    const struct cells at = cells_of(region->column[k], region->span[k], split[k]);
+    if (!piece_part(k ? &half : whole, k, at.from, at.to, at.log2, &j->pool, k ? &out->piece : &half)) return false;
   }
-  const int leaves = patch->cut.split[0] * patch->cut.split[1];
-  const double cut = split_is_exact(leaves) ? 0 : 2 * CUT_ERROR; /* in x_i and slope x_k */
-  *s = (struct search){.window = window_of_region(j, region),
-                       .extent = {part.first[0], part.first[1]},
-                       .ahead = j->all ? 0 : SEARCH_AHEAD,
-                       .divided = NO_BORDER,
-                       .error = {ray->error + cut, ray->error + cut}};
-  for (int k = 0; k < 4; k++) s->pole[k] = leaf_border_is_point(patch, region->column, region->span, k);
-  double nets[3][16];
-  local_ray_nets(ray, part.x, nets[0], nets[1], nets[2]);
-  *whole = (struct box){.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
-  memcpy(whole->net, nets, sizeof nets);
-  window_set_reach(&s->window, whole);
-  const double slack = window_length(&s->window, s->window.depth_error) +
-                       8 * UNIT_ROUNDOFF * real_max(fabs(whole->near), fabs(whole->far));
-  s->resolution = real_max((whole->far - whole->near) * SEARCH_RESOLUTION, 4 * slack);
-  whole->near = real_max(whole->near, region->near);
+  move_nets(j, out, out->begin);
+  set_reach(j, out);
+  return true;
+}
+
+/* A border all of whose points are on the ray: a pole, which is met there, or a line along the ray. */
+static void tell_met(struct judge *j, int border)
+{
+  double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
+  const struct piece *plane = &j->sight.plane;
+  const bool pole = edge_is_point(P, border);
+  double near = INFINITY, at[2];
+  for (int n = 0; n < 4; n++) {
+    const int limbs = plane->limbs[NET_W];
+    struct depth depth = {.error = 0};
+    depth.w = limbs_wide(plane->net[NET_W] + edge_at(border, n) * limbs, limbs, plane->exponent[NET_W], &depth.exact);
+    const wide t = depth.w / j->sight.along;
+    near = real_min(near, (double)t);
+    if (!pole) continue;
+    const struct ray *ray = j->asked->ray;
+    edge_place(border, 0.5, at);
+    const struct exact_root root = {.patch = j->patch,
+                                    .borders = 1u << border,
+                                    .u = at[0],
+                                    .v = at[1],
+                                    .t = t,
+                                    .t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t)),
+                                    .sharp = true};
+    if (order_to(&depth, j->sight.along, ray->t_min) == ORDER_BEHIND &&
+        order_to(&depth, j->sight.along, ray->t_max) == ORDER_BEFORE)
+      judge_root(j, &root);
+    return;
+  }
+  edge_place(border, 0, at);
+  judge_maybe(j, at[0], at[1], near, 4 * UNIT_ROUNDOFF * fabs(near), near);
 }
 
 void search_region(struct judge *j, const struct exact_region *region)
 {
-  struct search search;
-  struct box whole, waiting[SEARCH_AHEAD + SEARCH_STACK];
-  search_begin(j, region, &search, &whole);
-  if (j->work > 0) search_run(&search, &whole, waiting);
-  else search_tell_maybe(&search, &whole, false);
+  struct waiting waiting[WAITING_MAX];
+  const size_t before = j->pool.used;
+  int count = 0;
+  bool room = j->seen;
+  for (int k = -1; k < j->sight.borders && room; k++) {
+    waiting[count] = (struct waiting){.border = k};
+    room = region_begin(j, region, k < 0 ? &j->sight.off : &j->sight.border[k].on, &waiting[count]);
+    if (room && (k < 0 || waiting[count].piece.borders >> j->sight.border[k].border & 1)) count++;
+  }
+  if (room) {
+    for (int k = 0; k < 4; k++)
+      if (j->sight.met & waiting[0].piece.borders & 1u << k) tell_met(j, k);
+    search_run(j, waiting, count);
+  } else {
+    judge_left(j, region->near, INFINITY);
+  }
+  j->pool.used = before;
+}
+
+/* ---- sharp roots ---- */
+
+/* The part of the piece about the root, which it holds for certain, cut to 3/2^log2 of it, or as far as the root's place
+ * is known. */
+static bool part_about(const struct piece *piece, const struct exact_root *root, int log2, struct pool *pool,
+                       struct piece *out)
+{
+  const double at[2] = {(double)root->u, (double)root->v}, radius[2] = {root->radius_u, root->radius_v};
+  struct piece half;
+  for (int axis = 0; axis < 2; axis++) {
+    int exponent, cut = log2;
+    (void)frexp(radius[axis], &exponent);
+    if (radius[axis] > 0 && -exponent - 2 < cut) cut = -exponent - 2;
+    if (cut < 2) return false;
+    const double cells = ldexp(1, cut), first = real_clamp(floor(at[axis] * cells) - 1, 0, cells - 3);
+    if (!piece_part(axis ? &half : piece, axis, (limb)first, (limb)first + 3, cut, pool, axis ? out : &half))
+      return false;
+  }
+  return true;
+}
+
+/* How finely the patch is cut about a root, in turns, until the certificate holds. */
+static const int cuts[] = {8, 20, 32, 44, 56};
+
+bool search_sharpen(const struct model *model, const struct ray *ray, struct exact_root *root)
+{
+  double(*P)[4][3] = model->scene->patches[root->patch].P;
+  limb room[POOL_LIMBS];
+  struct pool pool = {room, POOL_LIMBS, 0};
+  struct sight sight;
+  struct piece piece, closer;
+  struct piece_root found;
+  bool alone = false;
+  if (root->sharp) return true;
+  for (int exchanged = 0; exchanged < 2 && !alone; exchanged++) { /* next to a pole, the pair is exchanged */
+    pool.used = 0;
+    if (!(exchanged ? sight_make(P, ray, &pool, &sight) : sight_plane(P, ray, &pool, &sight))) return false;
+    const size_t before = pool.used;
+    for (size_t k = 0; k < sizeof cuts / sizeof *cuts && !alone; k++) {
+      pool.used = before;
+      alone = part_about(exchanged ? &sight.off : &sight.plane, root, cuts[k], &pool, &piece) &&
+              piece_root(&piece, &pool, &found) == PIECE_ROOT;
+    }
+  }
+  if (!alone) return false;
+  for (int k = 0; k < 2; k++)
+    root->alone[k] = piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
+  for (int n = 0; n < ZOOMS && found.radius * real_max(piece.size[0], piece.size[1]) > SHARP; n++) {
+    if (!zoom(&piece, &found, &pool, &closer) || piece_root(&closer, &pool, &found) != PIECE_ROOT) break;
+    piece = closer;
+  }
+  double error;
+  bool exact;
+  const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
+  wide *at[2] = {&root->u, &root->v};
+  double *radius[2] = {&root->radius_u, &root->radius_v};
+  for (int k = 0; k < 2; k++) {
+    if (root->borders >> (2 * k) & 3) continue;
+    *at[k] = piece.low[k] + (wide)piece.size[k] * found.at[k];
+    *radius[k] = piece.size[k] * found.radius + (double)(4 * WIDE_ROUNDOFF);
+  }
+  root->t = w / sight.along;
+  root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
+  root->sharp = true;
+  return true;
 }

@@ -161,8 +161,7 @@ static struct hit answer_found(struct packet *p, unsigned lane, const struct exa
 {
   struct hit hit;
   struct exact_root root = found->root;
-  const struct exact_maybe maybe = {root.patch,     found->borders, (double)root.u,
-                                    (double)root.v, (double)root.t, root.t_error};
+  const struct exact_maybe maybe = {root.patch, (double)root.u, (double)root.v, (double)root.t, root.t_error};
   if (found->kind == EXACT_OPEN) exact_maybe_hit(p->model, &p->rays[lane], &maybe, &hit);
   else exact_root_hit(p->model, &p->rays[lane], &root, !p->model->unproven, &hit);
   return hit;

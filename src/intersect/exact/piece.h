@@ -1,0 +1,124 @@
+/* A piece of a patch as a ray sees it: two polynomials whose common zeros are where the ray's line meets it, and where
+ * along the ray that is, in integers.
+ *
+ * Internal to src/intersect/exact. Pure; safe on any thread.
+ *
+ * Let k be the axis along which the ray's direction d is longest, i and j the two others, and y = P - o the control
+ * points from the ray's origin. The polynomials are the two planes of the ray (paper eq 2),
+ *
+ *     a = y_i d_k - y_k d_i,   b = y_j d_k - y_k d_j,
+ *
+ * and w = y_n for some axis n, so t = w / d_n at a root. Doubles are integers times powers of two, so the nets of a, b
+ * and w are nets of integers, each times a power of two of its own, and so are those over any part of the patch with
+ * rational ends: nothing is rounded. Tests look at the leading bits of the nets first.
+ */
+#ifndef PSCN_INTERSECT_EXACT_PIECE_H
+#define PSCN_INTERSECT_EXACT_PIECE_H
+
+#include "intersect/exact/limbs.h"
+
+/* A number may have so many limbs; where one would have more, the search gives up. Coordinates and directions between
+ * 1e-100 and 1e100 take 24 at first. */
+enum { PIECE_LIMBS_MAX = 64 };
+
+/* Memory for nets, used as a stack. */
+struct pool {
+  limb *at;
+  size_t room, used;
+};
+
+enum { NET_A, NET_B, NET_W, NETS };
+
+struct piece {
+  limb *net[NETS];    /* coefficient 4 i + j at net + (4 i + j) limbs; in a pool */
+  int limbs[NETS];    /* of each coefficient */
+  int bits[NETS];     /* |coefficient| <= 2^bits */
+  int exponent[NETS]; /* the polynomials are the integers times 2^exponent */
+  wide low[2];        /* the piece is [low, low + size] of the patch's u and v; low is right to WIDE_ROUNDOFF */
+  double size[2];
+  unsigned borders;      /* of the patch, on which the piece's own borders lie: bits as of geometry/edges.h */
+  double value[2][4][4]; /* a and b, times powers of two, at most 1 in size; off by no more than PIECE_ERROR */
+};
+
+#define PIECE_ERROR 0x1p-53
+
+/* How far outside a piece its polynomials are used, in its parameters. There, a polynomial of degree 3 in one parameter
+ * and 2 in the other, so a derivative, is at most PIECE_GROWTH = (1 + 2/16)^5 times as large as its coefficients, and
+ * errors of values at most 2.03 = (1 + 2/16)^6 times as large as theirs. */
+#define PIECE_MARGIN 0.0625
+#define PIECE_GROWTH 1.81
+#define PIECE_MARGIN_OFF 2.03
+
+/* Takes memory for the nets of `out`, whose limbs are set. False if there is none, or the numbers are too long. */
+bool piece_room(struct piece *out, struct pool *pool);
+
+/* Sets bits and value after the nets have been set. */
+void piece_measure(struct piece *piece);
+
+/* Halves the piece across u (axis 0) or v (axis 1); out[0], the first in the pool, is the half of smaller parameters or
+ * the other one. False if there was no room; nothing is then taken from the pool. out lacks what piece_measure sets. */
+bool piece_halve(const struct piece *piece, int axis, bool high_first, struct pool *pool, struct piece out[2]);
+
+/* The part [from, to] / 2^log2 of the piece along that axis, from < to <= 2^log2, log2 at most 60. */
+bool piece_part(const struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool,
+                struct piece *out);
+
+/* Whether a or b keeps one sign on the piece: then it has no root. */
+bool piece_misses(const struct piece *piece);
+
+/* Whether a and b are 0 in the piece's corner at u = iu, v = iv, each 0 or 1. */
+bool piece_corner_root(const struct piece *piece, int iu, int iv);
+
+/* The axis along which a and b change more. */
+int piece_longer(const struct piece *piece);
+
+enum piece_verdict {
+  PIECE_EMPTY, /* no root in the piece, its borders included */
+  PIECE_ROOT,  /* exactly one root within PIECE_MARGIN of it, and it is in the piece or within its radius of it */
+  PIECE_OPEN
+};
+
+/* A root, in parameters of the piece: `at` is off by at most `radius`, the same for both. */
+struct piece_root {
+  double at[2], radius;
+  int turn; /* sign of the determinant of the Jacobian of (a,b) by (u,v), the same on the piece and its margin */
+};
+
+/* Decides the piece by two combinations of a and b that aim along its parameters: the rows of the adjugate of the
+ * Jacobian in the middle, so each has nearly no derivative by one of the parameters there. If one keeps its sign there
+ * is no root. If, divided by its derivative in the middle, each has a Jacobian within `contraction` < 1 of the identity
+ * all over the piece and its margin, in the maximum norm, then x -> x - F(x) contracts: there is at most one root, and
+ * one within |F(x)| / (1 - contraction) of any x if that ball lies in the margin (Banach). */
+enum piece_verdict piece_root(const struct piece *piece, struct pool *pool, struct piece_root *out);
+
+/* w at a point of the piece, known to within `radius` in both parameters. *error: absolute bound on what it is off. If
+ * that is 0 and *exact is set, w is this number; if *exact is not set, it is larger by less than the last place. */
+wide piece_depth(const struct piece *piece, const double at[2], double radius, double *error, bool *exact);
+
+/* Whether w grows along that axis, more or less. */
+bool piece_depth_grows(const struct piece *piece, int axis);
+
+/* Whether w changes all along every curve on which a (b, if a is 0 all over) is zero: their Jacobian is not singular. */
+bool piece_depth_turns(const struct piece *piece, struct pool *pool);
+
+/* Bounds of w on the piece. */
+void piece_depths(const struct piece *piece, double *least, double *most);
+
+/* An integer times 2^shift. */
+struct weight {
+  const limb *at;
+  int limbs, shift;
+};
+
+/* The integers' net p a + q b, exponents left aside, in memory of the pool; NULL if there is no room. */
+limb *piece_combine(const struct piece *piece, struct weight p, struct weight q, struct pool *pool, int *out_limbs);
+
+/* The net of p[0] a + p[1] b, where the weights are of `value`, formed exactly, as by net_round. False if there is no
+ * room. */
+bool piece_weigh(const struct piece *piece, const double p[2], struct pool *pool, double out[4][4]);
+
+/* A net of 16 such integers as doubles: times a power of two, so that the largest is 1/2 to 1, off by PIECE_ERROR. A
+ * coefficient below 0 stays so, and one that is 0 or less does not become positive. Returns the bits of the largest. */
+int net_round(const limb *net, int limbs, double out[4][4]);
+
+#endif

@@ -1,0 +1,323 @@
+/* A patch as a ray sees it. See sight.h. */
+#include "intersect/exact/sight.h"
+
+#include "base/real.h"
+#include "geometry/edges.h"
+
+/* ---- the ray's planes ---- */
+
+/* A double: number 2^exponent, the number odd or 0. */
+struct dyadic {
+  int64_t number;
+  int exponent;
+};
+
+static struct dyadic dyadic(double x)
+{
+  if (x == 0) return (struct dyadic){0, 0};
+  int exponent;
+  const int64_t number = (int64_t)ldexp(frexp(x, &exponent), 53);
+  const int twos = __builtin_ctzll((limb)number);
+  return (struct dyadic){number / ((int64_t)1 << twos), exponent - 53 + twos};
+}
+
+static int dyadic_bits(struct dyadic x) { return x.number ? limbs_bits((const limb[]){(limb)x.number}, 1) : 0; }
+
+/* y = P - o along one axis as integers times 2^exponent. */
+struct axis_net {
+  limb *net;
+  int limbs, exponent;
+  bool flat; /* all of them are equal */
+};
+
+static bool axis_make(double (*P)[4][3], const struct ray *ray, int axis, struct pool *pool, struct axis_net *out)
+{
+  struct dyadic x[17];
+  int low = INT32_MAX, high = INT32_MIN;
+  for (int c = 0; c < 17; c++) {
+    x[c] = dyadic(c < 16 ? P[c / 4][c % 4][axis] : ray->origin[axis]);
+    if (x[c].number == 0) continue;
+    const int top = x[c].exponent + dyadic_bits(x[c]);
+    low = x[c].exponent < low ? x[c].exponent : low, high = top > high ? top : high;
+  }
+  if (high == INT32_MIN) low = high = 0;
+  *out = (struct axis_net){pool->at + pool->used, limbs_for(high - low + 1), low, true};
+  if (out->limbs > PIECE_LIMBS_MAX || pool->used + 16 * (size_t)out->limbs > pool->room) return false;
+  pool->used += 16 * (size_t)out->limbs;
+  limb from[PIECE_LIMBS_MAX], one[1];
+  for (int c = 17; c-- > 0;) {
+    limb *to = c < 16 ? out->net + c * out->limbs : from;
+    one[0] = (limb)x[c].number;
+    limbs_shift(to, out->limbs, one, 1, x[c].number ? x[c].exponent - low : 0);
+    if (c < 16) limbs_subtract(to, to, from, out->limbs);
+    if (c < 15) out->flat &= memcmp(to, to + out->limbs, (size_t)out->limbs * sizeof *to) == 0;
+  }
+  return true;
+}
+
+/* Takes out the powers of two that all coefficients of a net have in common. */
+static void trim(struct piece *piece, int k)
+{
+  limb *net = piece->net[k];
+  const int limbs = piece->limbs[k];
+  int twos = INT32_MAX;
+  for (int c = 0; c < 16; c++) {
+    const limb *x = net + c * limbs;
+    const int here = limbs_zero(x, limbs) ? twos : limbs_twos(x);
+    twos = here < twos ? here : twos;
+  }
+  if (twos == INT32_MAX || twos == 0) return;
+  for (int c = 0; c < 16; c++) {
+    limb x[PIECE_LIMBS_MAX];
+    for (int n = 0; n < limbs; n++) x[n] = (limb)limbs_window(net + c * limbs, limbs, twos + LIMB_BITS * n);
+    limbs_copy(net + c * limbs, limbs, x, limbs);
+  }
+  piece->exponent[k] += twos;
+}
+
+/* net[k] = y_i d_k - y_k d_i */
+static bool plane_make(const struct axis_net *y[2], const double d[2], struct pool *pool, struct piece *out, int k)
+{
+  const struct dyadic weight[2] = {dyadic(d[0]), dyadic(d[1])};
+  const int exponent[2] = {y[0]->exponent + weight[0].exponent, y[1]->exponent + weight[1].exponent};
+  const bool one = weight[1].number == 0;
+  const int least = one || exponent[0] < exponent[1] ? exponent[0] : exponent[1];
+  struct piece both = {.net = {y[0]->net, y[1]->net}, .limbs = {y[0]->limbs, y[1]->limbs}};
+  const limb number[2] = {(limb)weight[0].number, (limb)-weight[1].number};
+  for (int n = 0; n < 2; n++)
+    for (int c = 0; c < 16; c++) {
+      const int bits = limbs_bits(y[n]->net + c * y[n]->limbs, y[n]->limbs);
+      both.bits[n] = bits > both.bits[n] ? bits : both.bits[n];
+    }
+  out->net[k] = piece_combine(&both, (struct weight){&number[0], 1, exponent[0] - least},
+                              (struct weight){&number[1], 1, one ? 0 : exponent[1] - least}, pool, &out->limbs[k]);
+  out->exponent[k] = least;
+  if (out->net[k]) trim(out, k);
+  return out->net[k];
+}
+
+/* The axis along which d is longest. */
+static int longest_axis(const double d[3])
+{
+  const int k = fabs(d[1]) > fabs(d[0]);
+  return fabs(d[2]) > fabs(d[k]) ? 2 : k;
+}
+
+bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out)
+{
+  const double *d = ray->direction;
+  const int k = longest_axis(d);
+  struct axis_net y[3];
+  for (int axis = 0; axis < 3; axis++)
+    if (!axis_make(P, ray, axis, pool, &y[axis])) return false;
+  struct piece *piece = &out->plane;
+  *piece = (struct piece){.low = {0, 0}, .size = {1, 1}, .borders = 15};
+  for (int n = 0; n < 2; n++) {
+    const int i = (k + 1 + n) % 3;
+    const double across[2] = {d[k], d[i]};
+    if (!plane_make((const struct axis_net *[2]){&y[i], &y[k]}, across, pool, piece, n)) return false;
+  }
+  int depth = k; /* where the patch is flat across an axis, t is the same all over it */
+  for (int axis = 0; axis < 3; axis++)
+    if (y[axis].flat && d[axis] != 0 && !y[depth].flat) depth = axis;
+  piece->net[NET_W] = y[depth].net, piece->limbs[NET_W] = y[depth].limbs, piece->exponent[NET_W] = y[depth].exponent;
+  trim(piece, NET_W);
+  out->along = d[depth];
+  piece_measure(piece);
+  return true;
+}
+
+/* ---- borders ---- */
+
+static const limb *at_border(const struct piece *piece, int k, int border, int n)
+{
+  return piece->net[k] + edge_at(border, n) * piece->limbs[k];
+}
+
+static bool row_zero(const struct piece *piece, int k, int border)
+{
+  for (int n = 0; n < 4; n++)
+    if (!limbs_zero(at_border(piece, k, border, n), piece->limbs[k])) return false;
+  return true;
+}
+
+static double row_value(const struct piece *piece, int k, int border, int n)
+{
+  const int at = edge_at(border, n);
+  return piece->value[k][at / 4][at % 4];
+}
+
+/* Whether the border's curve is on a line through the origin: all minors of its control values vanish. */
+static bool on_line(const struct piece *piece, int border)
+{
+  limb one[2 * PIECE_LIMBS_MAX], two[2 * PIECE_LIMBS_MAX];
+  const int limbs[2] = {piece->limbs[0], piece->limbs[1]}, both = limbs[0] + limbs[1];
+  for (int n = 0; n < 4; n++) {
+    for (int m = 0; m < n; m++) {
+      const double minor = row_value(piece, 0, border, n) * row_value(piece, 1, border, m) -
+                           row_value(piece, 0, border, m) * row_value(piece, 1, border, n);
+      if (fabs(minor) > 8 * PIECE_ERROR) return false;
+      limbs_product(one, both, at_border(piece, 0, border, n), limbs[0], at_border(piece, 1, border, m), limbs[1]);
+      limbs_product(two, both, at_border(piece, 0, border, m), limbs[0], at_border(piece, 1, border, n), limbs[1]);
+      if (memcmp(one, two, (size_t)both * sizeof *one) != 0) return false;
+    }
+  }
+  return true;
+}
+
+/* Replaces a net that is zero along the border by 3 times its quotient by the distance from there, in the same degree:
+ * in Bernstein form (c1, c2, c3) of u (c1 3 s^2 + c2 3 s u + c3 u^2) is (3 c1, 3/2 c2, c3) of degree 2. */
+static bool divide(struct piece *piece, int k, int border, struct pool *pool)
+{
+  const int in = piece->limbs[k], limbs = in + 1, inward = edge_inward(border);
+  if (limbs > PIECE_LIMBS_MAX || pool->used + 16 * (size_t)limbs > pool->room) return false;
+  limb *out = pool->at + pool->used;
+  pool->used += 16 * (size_t)limbs;
+  static const limb weight[4][2] = {{9, 0}, {3, 3}, {3, 1}, {0, 3}};
+  for (int n = 0; n < 4; n++) {
+    const int first = edge_at(border, n);
+    limb c[4][PIECE_LIMBS_MAX];
+    for (int row = 0; row < 4; row++) limbs_copy(c[row], limbs, piece->net[k] + (first + row * inward) * in, in);
+    for (int row = 0; row < 4; row++) {
+      const int from = row < 2 ? 1 : 2;
+      limbs_blend(out + (first + row * inward) * limbs, c[from], c[from + 1], limbs, weight[row][0], weight[row][1]);
+    }
+  }
+  piece->net[k] = out, piece->limbs[k] = limbs;
+  trim(piece, k);
+  return true;
+}
+
+/* The pair whose roots are those of net `kept` on the border: its values there, wherever in the patch, and the distance
+ * from the border. */
+static bool set_on(const struct piece *from, int kept, int border, struct pool *pool, struct piece *out)
+{
+  const int limbs = from->limbs[kept];
+  *out = *from;
+  if (pool->used + 16 * ((size_t)limbs + 1) > pool->room) return false;
+  out->net[NET_A] = pool->at + pool->used, out->limbs[NET_A] = limbs, out->exponent[NET_A] = from->exponent[kept];
+  out->net[NET_B] = out->net[NET_A] + 16 * limbs, out->limbs[NET_B] = 1, out->exponent[NET_B] = 0;
+  pool->used += 16 * ((size_t)limbs + 1);
+  for (int n = 0; n < 4; n++) {
+    for (int row = 0; row < 4; row++) {
+      const int at = edge_at(border, n) + row * edge_inward(border);
+      limbs_copy(out->net[NET_A] + at * limbs, limbs, at_border(from, kept, border, n), limbs);
+      out->net[NET_B][at] = (limb)row;
+    }
+  }
+  piece_measure(out);
+  return true;
+}
+
+/* Exchanges the pair for the kept polynomial and the quotient, and lists the border. */
+static bool exchange(struct sight *s, int border, struct pool *pool)
+{
+  struct piece *piece = &s->off;
+  int kept = 0, largest = 0;
+  for (int k = 0; k < 2; k++)
+    for (int n = 0; n < 4; n++)
+      if (fabs(row_value(piece, k, border, n)) > fabs(row_value(piece, kept, border, largest))) kept = k, largest = n;
+  if (row_value(piece, kept, border, largest) == 0) kept = row_zero(piece, 0, border), largest = 0;
+  while (limbs_zero(at_border(piece, kept, border, largest), piece->limbs[kept])) largest++;
+  /* the combination b_p a - a_p b */
+  limb minus[PIECE_LIMBS_MAX];
+  limbs_copy(minus, piece->limbs[0], at_border(piece, 0, border, largest), piece->limbs[0]);
+  limbs_negate(minus, piece->limbs[0]);
+  int limbs;
+  limb *net = piece_combine(piece, (struct weight){at_border(piece, 1, border, largest), piece->limbs[1], 0},
+                            (struct weight){minus, piece->limbs[0], 0}, pool, &limbs);
+  if (!net) return false;
+  bool zero = true;
+  for (int c = 0; c < 16 && zero; c++) zero = limbs_zero(net + c * limbs, limbs);
+  struct sight_border *out = &s->border[s->borders++];
+  *out = (struct sight_border){.border = border};
+  out->side = s->flip * limbs_sign(at_border(piece, kept, border, largest), piece->limbs[kept]);
+  if (!set_on(piece, kept, border, pool, &out->on)) return false;
+  if (zero) s->dependent |= !piece_misses(piece), out->side = 0; /* multiples of each other, and zero somewhere */
+  if (!zero) {
+    const int exponent = piece->exponent[0] + piece->exponent[1];
+    piece->net[NET_A] = piece->net[kept], piece->limbs[NET_A] = piece->limbs[kept];
+    piece->exponent[NET_A] = piece->exponent[kept];
+    piece->net[NET_B] = net, piece->limbs[NET_B] = limbs, piece->exponent[NET_B] = exponent;
+    trim(piece, NET_B);
+    do {
+      if (!divide(piece, NET_B, border, pool)) return false;
+    } while (row_zero(piece, NET_B, border));
+    piece_measure(piece);
+    s->flip = -out->side;
+  }
+  out->off = *piece;
+  return true;
+}
+
+bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out)
+{
+  *out = (struct sight){.flip = 1};
+  if (!sight_plane(P, ray, pool, out)) return false;
+  out->off = out->plane;
+  out->dependent = out->plane.bits[0] == 0 && out->plane.bits[1] == 0; /* a curve or a point on the ray */
+  for (int border = 0; border < 4 && !(out->plane.bits[0] == 0 && out->plane.bits[1] == 0); border++) {
+    struct piece *piece = &out->off;
+    while (row_zero(piece, 0, border) && row_zero(piece, 1, border)) {
+      if (!divide(piece, 0, border, pool) || !divide(piece, 1, border, pool)) return false;
+      out->met |= 1u << border;
+      piece_measure(piece);
+    }
+    if (on_line(piece, border) && !exchange(out, border, pool)) return false;
+  }
+  return true;
+}
+
+/* ---- a common zero of two cubics ---- */
+
+/* Products of six border values. */
+enum { COMMON_LIMBS_MAX = 6 * 20 };
+
+bool sight_common(const struct piece *piece, int border, double *out)
+{
+  static const int64_t binomial[4] = {1, 3, 3, 1};
+  const int bits = piece->bits[0] + piece->bits[1] + 6, n = limbs_for(3 * bits + 8);
+  if (n > COMMON_LIMBS_MAX) return false;
+  limb minor[4][4][COMMON_LIMBS_MAX], x[COMMON_LIMBS_MAX], y[COMMON_LIMBS_MAX], z[COMMON_LIMBS_MAX];
+  for (int i = 0; i < 4; i++) {
+    for (int j = i + 1; j < 4; j++) {
+      limbs_product(x, n, at_border(piece, 0, border, i), piece->limbs[0], at_border(piece, 1, border, j),
+                    piece->limbs[1]);
+      limbs_product(y, n, at_border(piece, 0, border, j), piece->limbs[0], at_border(piece, 1, border, i),
+                    piece->limbs[1]);
+      limbs_subtract(x, x, y, n);
+      limbs_scale(minor[i][j], n, x, n, binomial[i] * binomial[j]);
+    }
+  }
+  /* Bezout's matrix, of paper eq 6's kind: (s^2, s t, t^2) is its null vector at a common zero t/(s + t) */
+  limb middle[COMMON_LIMBS_MAX], cofactor[3][COMMON_LIMBS_MAX];
+  limbs_add(middle, minor[0][3], minor[1][2], n);
+  const limb *m[3][3] = {{minor[0][1], minor[0][2], minor[0][3]},
+                         {minor[0][2], middle, minor[1][3]},
+                         {minor[0][3], minor[1][3], minor[2][3]}};
+  wide null[3] = {0, 0, 0}, largest = 0;
+  for (int row = 0; row < 3; row++) { /* cofactors of each row are a null vector if the determinant vanishes */
+    const limb *const *p = m[(row + 1) % 3], *const *q = m[(row + 2) % 3];
+    wide here[3], most = 0;
+    bool exact;
+    for (int c = 0; c < 3; c++) {
+      limbs_product(x, n, p[(c + 1) % 3], n, q[(c + 2) % 3], n);
+      limbs_product(y, n, p[(c + 2) % 3], n, q[(c + 1) % 3], n);
+      limbs_subtract(cofactor[c], x, y, n);
+      here[c] = limbs_wide(cofactor[c], n, -4 * bits, &exact), most = wide_max(most, wide_abs(here[c]));
+    }
+    if (row == 0) {
+      memset(z, 0, sizeof z);
+      for (int c = 0; c < 3; c++) limbs_product(x, n, m[0][c], n, cofactor[c], n), limbs_add(z, z, x, n);
+      if (!limbs_zero(z, n)) return false;
+    }
+    if (most <= largest) continue;
+    largest = most;
+    for (int c = 0; c < 3; c++) null[c] = here[c];
+  }
+  if (largest == 0) return false;
+  const wide s = wide_abs(null[0]) >= wide_abs(null[2]) ? null[0] : null[1];
+  const wide t = wide_abs(null[0]) >= wide_abs(null[2]) ? null[1] : null[2];
+  *out = (double)(t / (s + t));
+  return s + t != 0;
+}

@@ -1,0 +1,46 @@
+/* What a ray sees of a patch: the whole patch as a piece, and what is special at its borders, decided exactly.
+ *
+ * Internal to src/intersect/exact. Pure; safe on any thread.
+ *
+ * As the ray sees it, a border is a cubic curve in the plane of (a,b), and the ray is the origin. Where that curve lies
+ * on a line through the origin, some combination p a + q b is zero along the border, so it is divisible by the distance
+ * from the border. The kept polynomial (a or b) and the quotient have the same zeros off the border, and simple ones
+ * however near to it. So it is at a border that is one point (a pole) or whose inner handles have no length, and where
+ * the ray lies in the plane of a flat border. The roots on such a border are those of the kept polynomial there: they
+ * are the roots of the pair (kept polynomial on the border, distance).
+ */
+#ifndef PSCN_INTERSECT_EXACT_SIGHT_H
+#define PSCN_INTERSECT_EXACT_SIGHT_H
+
+#include "intersect/exact/piece.h"
+#include "intersect/intersect.h"
+
+/* A border whose curve is on a line through the origin. */
+struct sight_border {
+  int border;       /* number as of geometry/edges.h */
+  struct piece on;  /* its roots are those on the border: a is the kept polynomial there, b the distance */
+  struct piece off; /* its roots are those off the border: a is the kept polynomial, b the quotient */
+  int side; /* sign of the kept polynomial's largest control value, times `flip` before; 0 if there is no quotient */
+};
+
+struct sight {
+  struct piece plane; /* the ray's own a and b */
+  struct piece off;   /* the same after all exchanges: it has all roots of the patch off the borders listed below */
+  int flip;           /* sign by which the exchanges turn the plane of (a,b) */
+  bool dependent;     /* a and b are multiples of each other: the ray lies in the plane of a flat patch */
+  unsigned met;       /* borders all of whose points are on the ray, as bits */
+  struct sight_border border[4];
+  int borders;
+  double along; /* t = w / along */
+};
+
+/* Only `plane` and `along`. False if there is no room. */
+bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out);
+
+/* All of it; nets are in the pool. */
+bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out);
+
+/* Whether a and b have one common zero on the border's line, and where. False also if they have several. */
+bool sight_common(const struct piece *piece, int border, double *out);
+
+#endif

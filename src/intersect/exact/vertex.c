@@ -1,0 +1,228 @@
+/* Whether a ray crosses the surface on a border: where two patches meet, or round a vertex in which several do.
+ *
+ * As the ray sees it, in the plane of (a,b), it is the origin. Where it meets a border, it crosses the surface if the
+ * two patches lie on either side of the border's curve. A vertex is a corner, or a pole, a border that is one point. A
+ * walk round it from border to border passes through all patches that have it, and returns if the surface is closed
+ * there. Each patch fills a sector, from one border's direction to the other's; near the vertex it has no further root,
+ * so the angles add up to how often the surface goes round the ray. If that is once, the ray crosses it there.
+ */
+#include "base/real.h"
+#include "geometry/edges.h"
+#include "intersect/exact/judge.h"
+
+/* How often a pole's directions are halved until they turn by less than half a turn. */
+enum { TURN_HALVINGS = 16 };
+
+/* The vertex in one patch: it lies between two borders, and the walk goes from `in` to `out`. */
+struct wedge {
+  uint32_t patch;
+  int in, out;
+  int end;  /* the end of `in` at which the vertex is: 0 or 1 of its running parameter */
+  int pole; /* the border between the two that is the vertex; -1 if they meet there */
+};
+
+struct direction {
+  double x, y;
+};
+
+/* The wedge of a patch whose border `in` ends in the vertex. */
+static struct wedge wedge_at(const struct model *model, uint32_t patch, int in, int end)
+{
+  const int other = (in < 2 ? 2 : 0) + end; /* the border at that end */
+  struct wedge w = {patch, in, other, end, -1};
+  if (edge_is_point(model->scene->patches[patch].P, other)) w.pole = other, w.out = in ^ 1;
+  return w;
+}
+
+/* The end of `out` at which the vertex is. */
+static int out_end(const struct wedge *w) { return w->pole >= 0 ? w->end : w->in & 1; }
+
+/* The wedge across the border `out`. Returns false if there is none. */
+static bool next_wedge(const struct model *model, const struct wedge *w, struct wedge *out)
+{
+  const struct edge_neighbour *other = model_neighbour(model, w->patch, w->out);
+  if (other->patch == EDGE_NONE) return false;
+  *out = wedge_at(model, other->patch, other->border, other->reversed ? 1 - out_end(w) : out_end(w));
+  return true;
+}
+
+/* The wedge of a root found in a corner or at a pole. Returns false if the root is on one border only. */
+static bool wedge_of(const struct model *model, const struct exact_root *root, struct wedge *out)
+{
+  int bits[4], count = 0;
+  for (int k = 0; k < 4; k++)
+    if (root->borders >> k & 1) bits[count++] = k;
+  for (int k = 0; k < count; k++) {
+    if (!edge_is_point(model->scene->patches[root->patch].P, bits[k])) continue;
+    *out = wedge_at(model, root->patch, bits[k] < 2 ? 2 : 0, bits[k] & 1);
+    return out->pole == bits[k];
+  }
+  if (count != 2 || bits[1] < 2 || bits[0] > 1) return false;
+  *out = wedge_at(model, root->patch, bits[0], bits[1] & 1);
+  return true;
+}
+
+/* Whether the two are the same place of one patch. */
+static bool same_wedge(const struct wedge *a, const struct wedge *b)
+{
+  if (a->patch != b->patch || (a->pole >= 0) != (b->pole >= 0)) return false;
+  if (a->pole >= 0) return a->pole == b->pole;
+  return (a->in == b->in && a->out == b->out) || (a->in == b->out && a->out == b->in);
+}
+
+/* ---- angles ---- */
+
+/* Control value `at` of (a,b), of length about 1. Returns false if it is 0. */
+static bool direction_at(const struct piece *plane, int at, struct direction *out)
+{
+  wide x[2];
+  bool exact;
+  for (int k = 0; k < 2; k++)
+    x[k] = limbs_wide(plane->net[k] + at * plane->limbs[k], plane->limbs[k], plane->exponent[k], &exact);
+  const wide size = wide_max(wide_abs(x[0]), wide_abs(x[1]));
+  if (size > 0) *out = (struct direction){(double)(x[0] / size), (double)(x[1] / size)};
+  return size > 0;
+}
+
+/* The direction of a border away from that end: that of its first control value that is not the vertex. */
+static bool border_direction(const struct piece *plane, int border, int end, struct direction *out)
+{
+  for (int n = 1; n < 4; n++)
+    if (direction_at(plane, edge_at(border, end ? 3 - n : n), out)) return true;
+  return false;
+}
+
+/* The angle from a to b, less than half a turn. */
+static double angle(struct direction a, struct direction b)
+{
+  return atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+}
+
+/* What is nearer to half a turn may be one the other way. A choice of caution: angles are right to some 2^-50. */
+#define HALF_TURN (3.14159 - 0x1p-20)
+
+static struct direction middle(struct direction a, struct direction b)
+{
+  return (struct direction){(a.x + b.x) / 2, (a.y + b.y) / 2};
+}
+
+/* Adds the angle along a cubic of directions, whose control values must not be normed one by one. It does not go through
+ * the origin, and turns as its ends do, if its control values lie in a half plane: turned from the first by less than a
+ * quarter. */
+static bool add_along(const struct direction c[4], int halvings, double *sum)
+{
+  bool near = true;
+  for (int n = 1; n < 4; n++) near = near && fabs(angle(c[0], c[n])) < HALF_TURN / 2;
+  if (near) *sum += angle(c[0], c[3]);
+  if (near || halvings == 0) return near;
+  struct direction half[2][4], level[4] = {c[0], c[1], c[2], c[3]};
+  for (int n = 0; n < 4; n++) {
+    half[0][n] = level[0], half[1][3 - n] = level[3 - n];
+    for (int k = 0; k + n < 3; k++) level[k] = middle(level[k], level[k + 1]);
+  }
+  return add_along(half[0], halvings - 1, sum) && add_along(half[1], halvings - 1, sum);
+}
+
+/* The row of control values next to a pole of which one is not the vertex: the directions from it. */
+static bool pole_directions(const struct piece *plane, const struct wedge *w, struct direction out[4])
+{
+  for (int row = 1; row < 4; row++) {
+    wide x[4][2], size = 0;
+    bool exact;
+    for (int n = 0; n < 4; n++) {
+      const int at = edge_at(w->pole, w->in & 1 ? 3 - n : n) + row * edge_inward(w->pole);
+      for (int k = 0; k < 2; k++) {
+        x[n][k] = limbs_wide(plane->net[k] + at * plane->limbs[k], plane->limbs[k], plane->exponent[k], &exact);
+        size = wide_max(size, wide_abs(x[n][k]));
+      }
+    }
+    for (int n = 0; n < 4 && size > 0; n++)
+      out[n] = (struct direction){(double)(x[n][0] / size), (double)(x[n][1] / size)};
+    if (size > 0) return true;
+  }
+  return false;
+}
+
+/* Adds the angle of a wedge of the current patch. */
+static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
+{
+  const struct piece *plane = &j->sight.plane;
+  struct direction in, out, between, row[4];
+  if (!j->seen) return false;
+  if (w->pole >= 0) return pole_directions(plane, w, row) && add_along(row, TURN_HALVINGS, sum);
+  if (!border_direction(plane, w->in, w->end, &in) || !border_direction(plane, w->out, out_end(w), &out)) return false;
+  double turn = angle(in, out);
+  if (fabs(turn) > HALF_TURN) { /* a smooth corner: by way of the control point between the two */
+    const int at = edge_at(w->in, w->end ? 3 : 0);
+    const int inner = at + edge_inward(w->in) + edge_inward(w->out);
+    if (!direction_at(plane, inner, &between)) return false;
+    const double first = angle(in, between), second = angle(between, out);
+    if (fabs(first) > HALF_TURN || fabs(second) > HALF_TURN) return false;
+    turn = first + second;
+  }
+  *sum += turn;
+  return true;
+}
+
+/* ---- crossings ---- */
+
+/* The index of the list's root in the wedge, at one t with `at`; the count for none. */
+static size_t root_in(struct judge *j, const struct wedge *w, size_t at)
+{
+  struct exact_found *found = j->list->at;
+  for (size_t k = 0; k < j->list->count; k++) {
+    struct wedge its;
+    bool sure = true;
+    if (found[k].root.patch == w->patch && found[k].kind == EXACT_BORDER &&
+        wedge_of(j->asked->model, &found[k].root, &its) && same_wedge(w, &its) &&
+        judge_compare(j, &found[k].root, &found[at].root, &sure) == 0 && sure)
+      return k;
+  }
+  return j->list->count;
+}
+
+static size_t round_vertex(struct judge *j, size_t at, const struct wedge *start, size_t out[VERTEX_MAX])
+{
+  const double whole = 2 * acos(-1);
+  struct wedge w = *start;
+  double sum = 0;
+  for (size_t count = 0; count < VERTEX_MAX;) {
+    const size_t found = root_in(j, &w, at);
+    if (found == j->list->count) return 0;
+    judge_turn(j, w.patch);
+    if (!add_wedge(j, &w, &sum)) return 0;
+    out[count++] = found;
+    if (!next_wedge(j->asked->model, &w, &w)) return 0;
+    if (same_wedge(&w, start) && w.in == start->in) return fabs(fabs(sum) - whole) < 1 ? count : 0;
+  }
+  return 0;
+}
+
+/* Where two patches meet: the same border has the same roots, at one t and one place. */
+static size_t across_border(struct judge *j, size_t at, size_t out[VERTEX_MAX])
+{
+  struct exact_found *found = j->list->at, *here = &found[at];
+  const int border = __builtin_ctz(here->root.borders);
+  const struct edge_neighbour *other = model_neighbour(j->asked->model, here->root.patch, border);
+  for (size_t k = 0; k < j->list->count && other->patch != EDGE_NONE; k++) {
+    struct exact_root *root = &found[k].root;
+    bool sure = true;
+    if (k == at || root->patch != other->patch || found[k].kind != EXACT_BORDER || root->borders != 1u << other->border)
+      continue;
+    const wide along = border < 2 ? here->root.v : here->root.u, its = other->border < 2 ? root->v : root->u;
+    const double apart = fabs((double)(along - (other->reversed ? 1 - its : its)));
+    if (apart > here->root.radius_u + here->root.radius_v + root->radius_u + root->radius_v) continue;
+    if (judge_compare(j, root, &here->root, &sure) != 0 || !sure) continue;
+    out[0] = at, out[1] = k;
+    return here->root.side * root->side * (other->reversed ? -1 : 1) == -1 ? 2 : 0;
+  }
+  return 0;
+}
+
+size_t vertex_crossed(struct judge *j, size_t at, size_t out[VERTEX_MAX])
+{
+  struct wedge start;
+  if (wedge_of(j->asked->model, &j->list->at[at].root, &start)) return round_vertex(j, at, &start, out);
+  const unsigned borders = j->list->at[at].root.borders;
+  return borders & (borders - 1) ? 0 : across_border(j, at, out);
+}
