@@ -1,7 +1,7 @@
 /* The last resort: decides what one ray meets, for it alone, in exact arithmetic.
  *
  * Internal to src/intersect. Compiled once, scalar, without contraction: its answers are the same bits on every
- * processor. Pure; safe on any thread; uses up to EXACT_STACK bytes of stack. To use it, fill in an exact_case and call
+ * processor. Pure; safe on any thread; uses up to 1 MB of stack. To use it, fill in an exact_case and call
  * exact_closest, exact_occluded or exact_all; exact_root_hit and exact_maybe_hit make the answers.
  *
  * The lanes take a root only where double precision leaves no question: the root is proven, strictly inside its patch,
@@ -103,6 +103,7 @@ struct exact_case {
   size_t region_count;
   double cut_from; /* neither what was left out nor a doubt begins before this t; infinite for none */
   uint64_t *work;  /* the work done is added, in pieces examined (judge.h) */
+  uint64_t limit;  /* no more of it may be done */
 };
 
 enum exact_verdict {

@@ -3,10 +3,6 @@
 
 #include "base/real.h"
 
-/* Work that one ray may take: two to four milliseconds. Isolated roots take some tens of pieces, tangents and poles some
- * hundreds; only surfaces that lie along the ray over an area need this much. */
-enum { JUDGE_WORK = 8192 };
-
 void judge_turn(struct judge *j, uint32_t patch)
 {
   if (j->patch == patch) return;
@@ -46,7 +42,7 @@ static bool sharpen(struct judge *j, struct exact_root *root)
 {
   if (root->sharp) return true;
   judge_spend(j, WORK_SIGHT);
-  return search_sharpen(j->asked->model, j->asked->ray, root);
+  return search_sharpen(j->asked->model, j->asked->ray, true, root);
 }
 
 static bool meet(const struct exact_root *a, const struct exact_root *b)
@@ -174,7 +170,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, enum judge_asks 
 {
   j->asked = asked, j->list = list, j->all = asks == JUDGE_ALL, j->any = asks == JUDGE_ANY;
   j->hit = j->doubtful = j->cut_short = j->doubt = false;
-  j->work = JUDGE_WORK, j->undecided = INFINITY, j->patch = UINT32_MAX;
+  j->work = (int)asked->limit, j->undecided = INFINITY, j->patch = UINT32_MAX;
   if (!j->all) {
     j->undecided = asked->cut_from;
     if (asked->known) j->nearest = *asked->known, j->hit = true;

@@ -62,8 +62,12 @@ void regions_search(struct judge *j);
  * decided. The region's patch must be the current one. */
 void search_region(struct judge *j, const struct exact_region *region);
 
-/* search.c: makes the root sharp, or fails; `plane` is that of its patch. */
-bool search_sharpen(const struct model *model, const struct ray *ray, struct exact_root *root);
+/* A t as near as this, relatively, rounds to a double next to it. */
+#define LAST_PLACES 0x1p-58
+
+/* search.c: makes the root sharp, or, unless it is to be the `sharpest`, its t right to the last places. Returns false if
+ * its place could not be improved. */
+bool search_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root);
 
 /* ---- what a search tells of the current patch ---- */
 

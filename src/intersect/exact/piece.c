@@ -9,14 +9,15 @@
 /* The leading bits that net_round keeps of the largest coefficient. */
 enum { WINDOW = 62 };
 
+/* The bits of the largest coefficient, by those of all together. */
 static int net_bits(const limb *net, int limbs)
 {
-  int bits = 0;
-  for (int c = 0; c < 16; c++) {
-    const int here = limbs_bits(net + c * limbs, limbs);
-    bits = here > bits ? here : bits;
+  for (int k = limbs; k-- > 0;) {
+    limb any = 0;
+    for (int c = 0; c < 16; c++) any |= net[c * limbs + k] ^ limbs_fill(net + c * limbs, limbs);
+    if (any) return LIMB_BITS * k + LIMB_BITS - __builtin_clzll(any);
   }
-  return bits;
+  return 0;
 }
 
 static inline int window_shift(int bits) { return bits > WINDOW ? bits - WINDOW : 0; }
@@ -53,21 +54,34 @@ void piece_measure(struct piece *piece)
 /* The index of coefficient k of the cubic number `row` that runs along u (axis 0) or v. */
 static inline int cubic_at(int axis, int row, int k) { return axis == 0 ? 4 * k + row : 4 * row + k; }
 
-/* Both halves of a cubic, times 8, by de Casteljau's algorithm. Sums are taken modulo 2^(64 limbs), in which the
- * results fit; the numbers above the `in` limbs of an operand are those of its sign. */
+/* a + b + *carry, and the carry of that. */
+static inline limb add_limbs(limb a, limb b, bool *carry)
+{
+  limb sum;
+  const bool first = __builtin_add_overflow(a, b, &sum), second = __builtin_add_overflow(sum, (limb)*carry, &sum);
+  *carry = first | second;
+  return sum;
+}
+
+/* The limb of 2^by x, of which `below` is the limb before. */
+static inline limb shift_limbs(limb x, limb below, int by) { return x << by | below >> (LIMB_BITS - by); }
+
+/* Both halves of a cubic, times 8, by de Casteljau's algorithm, a limb of all numbers at a time. Sums are taken modulo
+ * 2^(64 limbs), in which the results fit; the limbs above the `in` limbs of an operand are those of its sign. */
 static void cubic_halve(const limb *const c[4], int in, limb *const low[4], limb *const high[4], int out)
 {
-  limb_pair carry[7] = {0};
-  limb fill[4];
+  bool carry[6] = {false};
+  limb fill[4], p0 = 0, s0 = 0, pq0 = 0, rs0 = 0, pqr0 = 0, qrs0 = 0;
   for (int n = 0; n < 4; n++) fill[n] = limbs_fill(c[n], in);
   for (int k = 0; k < out; k++) {
-    const limb_pair p = k < in ? c[0][k] : fill[0], q = k < in ? c[1][k] : fill[1], r = k < in ? c[2][k] : fill[2],
-                    s = k < in ? c[3][k] : fill[3];
-    carry[0] += 8 * p, carry[1] += 4 * (p + q), carry[2] += 2 * (p + 2 * q + r), carry[3] += p + 3 * (q + r) + s;
-    carry[4] += 2 * (q + 2 * r + s), carry[5] += 4 * (r + s), carry[6] += 8 * s;
-    low[0][k] = (limb)carry[0], low[1][k] = (limb)carry[1], low[2][k] = (limb)carry[2], low[3][k] = (limb)carry[3];
-    high[0][k] = (limb)carry[3], high[1][k] = (limb)carry[4], high[2][k] = (limb)carry[5], high[3][k] = (limb)carry[6];
-    for (int n = 0; n < 7; n++) carry[n] >>= LIMB_BITS;
+    const limb p = k < in ? c[0][k] : fill[0], q = k < in ? c[1][k] : fill[1];
+    const limb r = k < in ? c[2][k] : fill[2], s = k < in ? c[3][k] : fill[3];
+    const limb pq = add_limbs(p, q, &carry[0]), qr = add_limbs(q, r, &carry[1]), rs = add_limbs(r, s, &carry[2]);
+    const limb pqr = add_limbs(pq, qr, &carry[3]), qrs = add_limbs(qr, rs, &carry[4]);
+    low[3][k] = high[0][k] = add_limbs(pqr, qrs, &carry[5]);
+    low[0][k] = shift_limbs(p, p0, 3), low[1][k] = shift_limbs(pq, pq0, 2), low[2][k] = shift_limbs(pqr, pqr0, 1);
+    high[1][k] = shift_limbs(qrs, qrs0, 1), high[2][k] = shift_limbs(rs, rs0, 2), high[3][k] = shift_limbs(s, s0, 3);
+    p0 = p, s0 = s, pq0 = pq, rs0 = rs, pqr0 = pqr, qrs0 = qrs;
   }
 }
 
@@ -75,7 +89,8 @@ static void cubic_halve(const limb *const c[4], int in, limb *const low[4], limb
 static void place(const struct piece *piece, int axis, wide at, double part, const bool ends[2], struct piece *out)
 {
   for (int k = 0; k < 2; k++) out->low[k] = piece->low[k], out->size[k] = piece->size[k];
-  out->low[axis] += at * piece->size[axis], out->size[axis] *= part;
+  if (!ends[0]) out->low[axis] += at * piece->size[axis];
+  out->size[axis] *= part;
   out->borders = piece->borders;
   for (int end = 0; end < 2; end++)
     if (!ends[end]) out->borders &= ~(1u << (2 * axis + end));
@@ -312,7 +327,7 @@ static double turning(const struct row *row, int k, double along)
 {
   double most[2] = {0, 0};
   const double inverse = 3 / along;
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 4 && most[0] + most[1] <= 1; i++) { /* 1 is too much already */
     for (int j = 0; j < 3; j++) {
       const double du = (row->net[j + 1][i] - row->net[j][i]) * inverse;
       const double dv = (row->net[i][j + 1] - row->net[i][j]) * inverse;
@@ -403,15 +418,28 @@ static bool bent_misses(double s[4][4], struct row *f)
     m[c / 2][c % 2] = middle + slope[0] * (c / 2 - 0.5) + slope[1] * (c % 2 - 0.5);
     most_m = real_max(most_m, fabs(m[c / 2][c % 2]));
   }
+  int signs = 0; /* of the product's corners */
+  for (int c = 0; c < 4; c++) {
+    const int u = 3 * (c / 2), v = 3 * (c % 2);
+    signs += f->net[u][v] + m[c / 2][c % 2] * s[u][v] > 0;
+  }
+  if (signs % 4 != 0) return false;
   for (int c = 0; c < 16; c++)
     most[0] = real_max(most[0], fabs(f->net[c / 4][c % 4])), most[1] = real_max(most[1], fabs(s[c / 4][c % 4]));
-  for (int k = 0; k < 5; k++) { /* the product in Bernstein form, of degree 4 both ways */
+  double half[2][4][5]; /* in Bernstein form, of degree 4 along v */
+  for (int i = 0; i < 2; i++) {
+    for (int r = 0; r < 4; r++) {
+      for (int l = 0; l < 5; l++) {
+        const double low = l < 4 ? (4 - l) * (f->net[r][l] + m[i][0] * s[r][l]) : 0;
+        const double high = l > 0 ? l * (f->net[r][l - 1] + m[i][1] * s[r][l - 1]) : 0;
+        half[i][r][l] = (low + high) / 4;
+      }
+    }
+  }
+  for (int k = 0; k < 5; k++) {
     for (int l = 0; l < 5; l++) {
-      double sum = 0;
-      for (int i = k > 3; i <= (k > 0); i++)
-        for (int j = l > 3; j <= (l > 0); j++)
-          sum += (i ? k : 4 - k) * (j ? l : 4 - l) * (f->net[k - i][l - j] + m[i][j] * s[k - i][l - j]);
-      least = real_min(least, sum / 16), largest = real_max(largest, sum / 16);
+      const double low = k < 4 ? (4 - k) * half[0][k][l] : 0, high = k > 0 ? k * half[1][k - 1][l] : 0;
+      least = real_min(least, (low + high) / 4), largest = real_max(largest, (low + high) / 4);
     }
   }
   /* nets' errors, and less than ten roundings of each of four summands, which are means */
@@ -422,15 +450,16 @@ static bool bent_misses(double s[4][4], struct row *f)
 /* ---- the decision ---- */
 
 /* The two rows, their derivatives along the parameters in the middle, and their contraction; infinite if one has no such
- * derivative. Returns whether one of them keeps its sign. */
-static bool make_rows(const struct piece *piece, struct pool *pool, struct slopes *slopes, struct row row[2],
-                      double along[2], double *contraction)
+ * derivative. Returns whether one of them keeps its sign; what follows is then set only if it is wanted `always`. */
+static bool make_rows(const struct piece *piece, struct pool *pool, bool always, struct slopes *slopes,
+                      struct row row[2], double along[2], double *contraction)
 {
   bool misses = false;
   slopes_round(piece, slopes);
   *contraction = 0;
   for (int k = 0; k < 2; k++) {
     misses |= make_row(piece, slopes, k, pool, &row[k]);
+    if (misses && !always) return true;
     const struct patch_jet jet = patch_evaluate(row[k].net, 0.5, 0.5);
     along[k] = k == 0 ? jet.du : jet.dv;
     const double turn = along[k] == 0 ? INFINITY : turning(&row[k], k, along[k]) + 16 * row[k].error / fabs(along[k]);
@@ -457,7 +486,7 @@ enum piece_verdict piece_root(const struct piece *piece, struct pool *pool, stru
   struct row row[2];
   struct slopes slopes;
   double along[2], contraction, s[4][4];
-  if (make_rows(piece, pool, &slopes, row, along, &contraction)) return PIECE_EMPTY;
+  if (make_rows(piece, pool, false, &slopes, row, along, &contraction)) return PIECE_EMPTY;
   if (!(contraction <= CONTRACTION)) {
     const double(*x)[2] = slopes.value;
     const int steep = fabs(x[1][0]) + fabs(x[1][1]) > fabs(x[0][0]) + fabs(x[0][1]);
@@ -552,7 +581,7 @@ bool piece_depth_turns(const struct piece *piece, struct pool *pool)
     both.net[NET_B] = pool->at + pool->used, pool->used += 16 * (size_t)limbs;
     depth_changes(piece, limbs, both.net[NET_B]);
     piece_measure(&both);
-    (void)make_rows(&both, pool, &slopes, row, along, &contraction);
+    (void)make_rows(&both, pool, true, &slopes, row, along, &contraction);
     turns = contraction <= CONTRACTION;
   }
   pool->used = before;

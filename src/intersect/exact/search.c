@@ -105,10 +105,10 @@ static bool in_corner(struct placing *p)
 static bool on_border(const struct placing *p, int border)
 {
   const struct waiting *from = p->from;
-  double at;
-  if (from->border >= 0 || !sight_common(&p->j->sight.off, border, &at)) return false;
+  wide at;
+  if (from->border >= 0 || !sight_common(&p->j->sight.plane, border, &at)) return false;
   const int along = border < 2;
-  const double here = (at - (double)from->piece.low[along]) / from->piece.size[along];
+  const wide here = (at - from->piece.low[along]) / from->piece.size[along];
   return here >= -PIECE_MARGIN / 2 && here <= 1 + PIECE_MARGIN / 2; /* there is one root in all that */
 }
 
@@ -490,7 +490,7 @@ static bool part_about(const struct piece *piece, const struct exact_root *root,
 /* How finely the patch is cut about a root, in turns, until the certificate holds. */
 static const int cuts[] = {8, 20, 32, 44, 56};
 
-bool search_sharpen(const struct model *model, const struct ray *ray, struct exact_root *root)
+bool search_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root)
 {
   double(*P)[4][3] = model->scene->patches[root->patch].P;
   limb room[POOL_LIMBS];
@@ -513,13 +513,17 @@ bool search_sharpen(const struct model *model, const struct ray *ray, struct exa
   if (!alone) return false;
   for (int k = 0; k < 2; k++)
     root->alone[k] = piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
-  for (int n = 0; n < ZOOMS && found.radius * real_max(piece.size[0], piece.size[1]) > SHARP; n++) {
+  double error;
+  bool exact;
+  for (int n = 0;; n++) {
+    const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
+    root->sharp = found.radius * real_max(piece.size[0], piece.size[1]) <= SHARP;
+    root->t = w / sight.along;
+    root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
+    if (n == ZOOMS || root->sharp || (!sharpest && root->t_error <= LAST_PLACES * fabs((double)root->t))) break;
     if (!zoom(&piece, &found, &pool, &closer) || piece_root(&closer, &pool, &found) != PIECE_ROOT) break;
     piece = closer;
   }
-  double error;
-  bool exact;
-  const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
   wide *at[2] = {&root->u, &root->v};
   double *radius[2] = {&root->radius_u, &root->radius_v};
   for (int k = 0; k < 2; k++) {
@@ -527,8 +531,5 @@ bool search_sharpen(const struct model *model, const struct ray *ray, struct exa
     *at[k] = piece.low[k] + (wide)piece.size[k] * found.at[k];
     *radius[k] = piece.size[k] * found.radius + (double)(4 * WIDE_ROUNDOFF);
   }
-  root->t = w / sight.along;
-  root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
-  root->sharp = true;
   return true;
 }

@@ -273,7 +273,7 @@ bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, str
 /* Products of six border values. */
 enum { COMMON_LIMBS_MAX = 6 * 20 };
 
-bool sight_common(const struct piece *piece, int border, double *out)
+bool sight_common(const struct piece *piece, int border, wide *out)
 {
   static const int64_t binomial[4] = {1, 3, 3, 1};
   const int bits = piece->bits[0] + piece->bits[1] + 6, n = limbs_for(3 * bits + 8);
@@ -318,6 +318,6 @@ bool sight_common(const struct piece *piece, int border, double *out)
   if (largest == 0) return false;
   const wide s = wide_abs(null[0]) >= wide_abs(null[2]) ? null[0] : null[1];
   const wide t = wide_abs(null[0]) >= wide_abs(null[2]) ? null[1] : null[2];
-  *out = (double)(t / (s + t));
+  *out = t / (s + t);
   return s + t != 0;
 }

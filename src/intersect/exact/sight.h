@@ -41,6 +41,6 @@ bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, st
 bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out);
 
 /* Whether a and b have one common zero on the border's line, and where. False also if they have several. */
-bool sight_common(const struct piece *piece, int border, double *out);
+bool sight_common(const struct piece *piece, int border, wide *out);
 
 #endif
