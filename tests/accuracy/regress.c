@@ -43,9 +43,8 @@ static void flat(double scale, double from_x, double from_y, double z, net P)
 
 /* A ray that starts next to a flat surface. Whether it meets it depends on less than the error of the leaf's
  * polynomials. */
-static void test_start(void **state)
+TEST(test_start)
 {
-  (void)state;
   net P;
   flat(1, 1.5, 1.5, 0, P);
   struct trial trial;
@@ -66,9 +65,8 @@ static void test_start(void **state)
 }
 
 /* Next to the plane of an edge a parameter has more digits than the leaf's polynomials. */
-static void test_small_parameter(void **state)
+TEST(test_small_parameter)
 {
-  (void)state;
   struct model model;
   model_dome(&model);
   struct trial trial;
@@ -86,9 +84,8 @@ static void test_small_parameter(void **state)
 }
 
 /* A patch that is a line, met exactly: the answer is the point that the ray passes, not just any one of the line. */
-static void test_line(void **state)
+TEST(test_line)
 {
-  (void)state;
   net P;
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
@@ -110,9 +107,8 @@ static void test_line(void **state)
 
 /* Through the corner of a patch that is a line: one combination of the planes is known badly, which must not blur the
  * other. */
-static void test_corner_of_line(void **state)
+TEST(test_corner_of_line)
 {
-  (void)state;
   static const double x[4][4] = {
     {-0x1.60eb34df6a67dp+0, -0x1.7a04fdefbdbe1p+0, -0x1.a56b7eb02ebfcp+0, -0x1.91e293d3385c4p+0},
     {-0x1.39434e7ae7adcp-2, -0x1.0e8c13ea7fad5p-1, -0x1.11fa41fdaedf9p-1, -0x1.5ceea8c55f3d4p-1},
@@ -132,9 +128,8 @@ static void test_corner_of_line(void **state)
 }
 
 /* Exactly tangent: a hit, there. Off by 2^-k, far less than doubles resolve: proven to hit or to miss. */
-static void test_tangent(void **state)
+TEST(test_tangent)
 {
-  (void)state;
   net P;
   bowl(P);
   struct trial trial;
@@ -178,9 +173,8 @@ static void ball_top(net P[2])
 /* Rays that pass a pole of a ball, at 2^-112 of it, and nearly along the tangent plane there, meet the ball once more
  * before it: by 1e-10 of the ball, or by 1e-16. That is hit first, although a wall stands between the two; a wall before
  * both is hit first. */
-static void test_beside_met_pole(void **state)
+TEST(test_beside_met_pole)
 {
-  (void)state;
   static const struct {
     double slope, aside, back, wall;
     uint32_t patch;
@@ -205,9 +199,8 @@ static void test_beside_met_pole(void **state)
 
 /* A ray that starts next to the pole, nearer than 113 bits tell, and meets the ball at 4e-15 of its size: that hit is
  * not lost. */
-static void test_from_met_pole(void **state)
+TEST(test_from_met_pole)
 {
-  (void)state;
   static const double origin[3] = {-0x1p-81, 0x1p-84, -0x1p-82}, direction[3] = {-1, -0x1p-36, -0.5};
   net P[2];
   struct trial trial;
@@ -221,9 +214,8 @@ static void test_from_met_pole(void **state)
 
 /* The ray meets the surface between its start and its end, and no double lies there: t is the end. Otherwise, whoever
  * asks for the next hit would get the same one again. */
-static void test_between_doubles(void **state)
+TEST(test_between_doubles)
 {
-  (void)state;
   net P;
   flat(1, 1.25, 1.75, 0, P);
   struct trial trial;
@@ -234,15 +226,4 @@ static void test_between_doubles(void **state)
   assert_int_equal(hit.patch, 0);
   assert_true(hit.t == ray.t_max);
   trial_destroy(&trial);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_start),         cmocka_unit_test(test_small_parameter),
-    cmocka_unit_test(test_line),          cmocka_unit_test(test_corner_of_line),
-    cmocka_unit_test(test_tangent),       cmocka_unit_test(test_beside_met_pole),
-    cmocka_unit_test(test_from_met_pole), cmocka_unit_test(test_between_doubles),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,10 +16,6 @@ enum { EXACT_LEAVES = 1024 };
 /* Whether cutting a patch into this many leaves is exact, except for the last rounding of each coordinate. */
 static inline bool split_is_exact(int leaves) { return leaves <= EXACT_LEAVES && (leaves & (leaves - 1)) == 0; }
 
-/* What any other cut of a patch rounds off its coordinates: six mixtures, each with two roundings and that of a
- * difference, of numbers of size 1. */
-#define CUT_ERROR (30 * UNIT_ROUNDOFF)
-
 /* How parts of a patch lie: each is span[0] x span[1] of split[0] x split[1] columns. Bounds are for a part widened on
  * all sides by `margin` of itself. */
 struct part_grid {
