@@ -11,7 +11,7 @@ enum { SEED = 20261122, MOST_PATCHES = 1000, RAYS = 24 };
 
 /* Work of the last resort for one ray: in company and alone. The budget is looked at between pieces and candidates, so
  * LATE is what some candidates may cost. */
-enum { WORK = RAY_BUDGET / COST_EXACT * 9 / 8 + 64, WORK_ALL = 49152, LATE = 1 << 14 };
+enum { WORK = RAY_BUDGET / COST_EXACT * 5 / 4, WORK_ALL = 49152, LATE = 1 << 14 };
 
 typedef void fill(struct random *random, size_t number, size_t count, world_net net);
 typedef void aim(struct random *random, struct ray *ray);

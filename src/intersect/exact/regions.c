@@ -65,6 +65,10 @@ void regions_search(struct judge *j)
   for (size_t k = 0; k < count && (j->all || regions[k].near <= j->limit); k++) {
     const int all = j->work, fair = (int)((size_t)real_max(all, 0) / (count - k));
     const int share = fair > LEAST_SHARE ? fair : all < LEAST_SHARE ? all : LEAST_SHARE;
+    if (all <= 0) {
+      judge_left(j, regions[k].near, INFINITY);
+      continue;
+    }
     j->work = share;
     judge_turn(j, regions[k].patch);
     search_region(j, &regions[k]);
