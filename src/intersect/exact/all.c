@@ -63,8 +63,8 @@ static void leave_out_same(struct judge *j)
     for (size_t b = a + 1; b < j->list->count && overlap(&at[a], &at[b]); b++) {
       if (at[a].root.patch == LEFT_OUT || at[b].root.patch == LEFT_OUT) continue;
       bool sure = true;
-      if (at[a].kind == EXACT_OPEN) at[a].root.patch = LEFT_OUT;
-      else if (at[b].kind == EXACT_OPEN) at[b].root.patch = LEFT_OUT;
+      if (at[b].kind == EXACT_OPEN) at[b].root.patch = LEFT_OUT;
+      else if (at[a].kind == EXACT_OPEN) at[a].root.patch = LEFT_OUT;
       else if (judge_same(j, &at[a].root, &at[b].root, &sure)) at[b].root.patch = LEFT_OUT, j->doubt |= !sure;
     }
   }
