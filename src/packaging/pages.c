@@ -33,11 +33,13 @@ struct argument argument_of_option(const struct command *command, const struct c
 struct argument argument_of_command(const struct command *command)
 {
   struct argument argument = {.kind = ARGUMENT_OTHER};
-  if (strcmp(command->arguments, "SCENE") == 0) argument.kind = ARGUMENT_SCENE;
+  if (strncmp(command->arguments, "SCENE", 5) == 0) argument.kind = ARGUMENT_SCENE;
   else if (strcmp(command->arguments, "[COMMAND]") == 0) {
     argument.kind = ARGUMENT_WORDS;
     for (size_t k = 0; command_at(k) != NULL; k++) add_word(&argument, command_at(k)->name);
     add_word(&argument, "solver channels");
+  } else if (strcmp(command->arguments, "[FILE]") == 0) {
+    argument.kind = ARGUMENT_FILE;
   } else if (command->arguments[0] != '\0') {
     argument.kind = ARGUMENT_PICTURE;
   }

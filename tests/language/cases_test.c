@@ -141,15 +141,10 @@ static void run_folder(const char *folder, const char *ending, bool (*run)(const
   assert_int_equal(failed, 0);
 }
 
-static void test_bad(void **state)
-{
-  (void)state;
-  run_folder("bad", "errors", bad_case);
-}
+TEST(test_bad) { run_folder("bad", "errors", bad_case); }
 
-static void test_ok(void **state)
+TEST(test_ok)
 {
-  (void)state;
   assert_true(ok_case("ok/empty.pscn", "ok/empty.dump"));
   run_folder("ok", "dump", ok_case);
   free(of_nothing);
@@ -158,9 +153,8 @@ static void test_ok(void **state)
 
 /* Pieces of a picture may be rendered on different machines, so the hash must be the same on all of them. A Python
  * program has computed this one. */
-static void test_hash(void **state)
+TEST(test_hash)
 {
-  (void)state;
   static const char text[] = "background { rgb <1, 0.5, 0.25> } // \xc3\xa4\xc3\xb6\xc3\xbc\n";
   struct diagnostics diagnostics = {.tell = tell, .context = stderr};
   struct scene *scene = NULL;
@@ -170,9 +164,8 @@ static void test_hash(void **state)
 }
 
 /* A missing file is no file; nor is a text. */
-static void test_missing(void **state)
+TEST(test_missing)
 {
-  (void)state;
   static const char text[] = "#include \"none.inc\"";
   char *said = NULL;
   size_t length;
@@ -207,9 +200,8 @@ static bool is_moved(const struct scene *scene, const struct scene_copy *copy)
 }
 
 /* Objects that stand in a scene several times are reported, only the outermost ones, and how they are moved. */
-static void test_copies(void **state)
+TEST(test_copies)
 {
-  (void)state;
   static const char text[] =
     "#declare A = bicubic_patch { type 0 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0>"
     " <0,2,0> <1,2,0> <2,2,2> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,4> }"
@@ -235,7 +227,5 @@ int main(void)
 {
   /* Names in messages are relative to this folder. */
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok), cmocka_unit_test(test_hash),
-                                     cmocka_unit_test(test_missing), cmocka_unit_test(test_copies)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return test_run();
 }

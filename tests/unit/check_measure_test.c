@@ -114,9 +114,8 @@ static bool is_ray_of(const struct check *check, const struct ray *ray, size_t x
 }
 
 /* A difference counts if it exceeds a limit, not if it equals it; it counts for what its pixel lies on. */
-static void differences_are_counted(void **state)
+TEST(differences_are_counted)
 {
-  (void)state;
   static const int codes[] = {0, 1, 2, 4, 5, 16, 17, 255};
   static const enum check_edge edges[] = {CHECK_EDGE_NONE,   CHECK_EDGE_NONE,   CHECK_EDGE_NONE, CHECK_EDGE_CREASE,
                                           CHECK_EDGE_CREASE, CHECK_EDGE_SHADOW, CHECK_EDGE_NONE, CHECK_EDGE_SILHOUETTE};
@@ -132,9 +131,8 @@ static void differences_are_counted(void **state)
   free_check(&check);
 }
 
-static void hits_of_one_alone_are_counted(void **state)
+TEST(hits_of_one_alone_are_counted)
 {
-  (void)state;
   struct check check = check_of(5, 2, 0);
   pixels[0].patch = pixels[1].patch = HIT_NONE;
   their_mask[1] = 0; /* both miss */
@@ -146,9 +144,8 @@ static void hits_of_one_alone_are_counted(void **state)
 }
 
 /* POV-Ray reads the scene's file first, unless that is refused or the file could use others; then the dump. */
-static void the_first_row_is_as_written(void **state)
+TEST(the_first_row_is_as_written)
 {
-  (void)state;
   static const struct {
     const char *dumped, *word, *why;
   } cases[] = {{NULL, "", ""},
@@ -172,9 +169,8 @@ static void the_first_row_is_as_written(void **state)
 
 /* They are asked at every second pixel of every second row, from the second on; if the grid is larger than the picture,
  * at one. */
-static void distances_are_those_of_a_grid(void **state)
+TEST(distances_are_those_of_a_grid)
 {
-  (void)state;
   struct check check = check_of(7, 5, 2);
   pixels[1 * 7 + 1].distance = 4, their_distance[0] = 5;
   pixels[1 * 7 + 3].distance = INFINITY;
@@ -199,9 +195,8 @@ static void distances_are_those_of_a_grid(void **state)
 }
 
 /* The largest differences, none near a larger one, each with what POV-Ray sees there. */
-static void the_worst_are_apart(void **state)
+TEST(the_worst_are_apart)
 {
-  (void)state;
   enum { WIDTH = 40 }; /* near: within 5 pixels */
   static const struct {
     size_t x, y;
@@ -234,9 +229,8 @@ static bool is_color(const struct image *image, size_t x, size_t y, const float 
 
 /* Edges have their colours. A pixel over the limit has its edge's colour, and a larger spot if it lies off all
  * edges. */
-static void the_map_shows_them(void **state)
+TEST(the_map_shows_them)
 {
-  (void)state;
   struct check check = check_of(101, 5, 0);
   image_pixel(&check.ours.picture, 0, 0)[1] = 1;
   pixels[4].edge = CHECK_EDGE_SHADOW;
@@ -273,9 +267,8 @@ static struct scene_patch rectangle(double x0, double x1, double y1, double z)
 /* The left half of the picture shows a rectangle in front of a longer, lower one. The first light is behind both; of
  * the nearer one, which it would reach in part, it lights nothing. The shadow of the second light's nearer rectangle
  * ends on the farther one. The last light is shadowless. */
-static void our_pixels_are_known(void **state)
+TEST(our_pixels_are_known)
 {
-  (void)state;
   enum { WIDTH = 20, HEIGHT = 8, CODE = 124, LIT = 15 }; /* CODE: of 0.2; LIT: the first column past the shadow */
   struct method solver;
   struct scene_patch patches[] = {rectangle(-2, 0, 2, 2), rectangle(-4, 4, 1, 4)};
@@ -314,14 +307,4 @@ static void our_pixels_are_known(void **state)
   assert_true(check.ours.time.wall >= 1000 && check.ours.time.wall < 1500);
   assert_true(check.ours.time.cpu >= 2000 && check.ours.time.cpu < 2500);
   check_ours_free(&check.ours);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(differences_are_counted),     cmocka_unit_test(hits_of_one_alone_are_counted),
-    cmocka_unit_test(the_first_row_is_as_written), cmocka_unit_test(distances_are_those_of_a_grid),
-    cmocka_unit_test(the_worst_are_apart),         cmocka_unit_test(the_map_shows_them),
-    cmocka_unit_test(our_pixels_are_known)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
