@@ -59,26 +59,28 @@ static enum status take_povray_option(const struct command *command, struct requ
   return STATUS_OK;
 }
 
-/* Adds POV-Ray options for the numbers of --declare, where POV-Ray reads the scene's file. The caller frees
+/* Adds POV-Ray options for --clock and the numbers of --declare, where POV-Ray reads the scene's file. The caller frees
  * *out_texts, the options' texts. */
 static enum status declare_numbers(const struct command *command, struct request *request, char **out_texts)
 {
   const struct scene_request *scene = &request->scene;
   enum status status = STATUS_OK;
-  size_t size = 1, used = 0;
+  char number[NUMBER_TEXT_SIZE];
+  size_t size = sizeof "Clock=" + NUMBER_TEXT_SIZE, used = 0;
   for (size_t k = 0; k < scene->number_count; k++)
     size += sizeof "Declare==" + scene->numbers[k].name_length + NUMBER_TEXT_SIZE;
   char *texts = *out_texts = malloc(size);
   if (texts == NULL) return command_out_of_memory(command);
   for (size_t k = 0; k < scene->number_count && status == STATUS_OK; k++) {
     const struct language_number *given = &scene->numbers[k];
-    char number[NUMBER_TEXT_SIZE];
     number_write_17(given->value, number);
     status = take_povray_option(command, request, texts + used);
     used += 1 + (size_t)snprintf(texts + used, size - used, "Declare=%.*s=%s", (int)given->name_length, given->name,
                                  number);
   }
-  return status;
+  number_write_17(scene->clock, number);
+  snprintf(texts + used, size - used, "Clock=%s", number);
+  return status == STATUS_OK && scene->clock != 0 ? take_povray_option(command, request, texts + used) : status;
 }
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)

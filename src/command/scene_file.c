@@ -36,6 +36,7 @@ static enum status take_number(const struct command *command, struct scene_reque
       value[used] != '\0')
     return command_usage(command, "'%s' is no NAME=NUMBER", argument);
   if (!number_in_range(&number.value)) return command_usage(command, "'%s': the number is larger than 1e100", argument);
+  if (length == 5 && strncmp(argument, "clock", length) == 0) return command_usage(command, "--clock X sets the clock");
   if (!language_is_name(argument, length))
     return command_usage(command, "'%.*s' is no name that can be declared", (int)length, argument);
   if (request->number_count == SCENE_MOST_NUMBERS)

@@ -182,7 +182,7 @@ static void copy_text(struct copy *copy)
       if (token == PSCN_TOKEN_STRING) copy_include(copy);
       else note_word(copy, "#include ");
     } else {
-      if ((token == PSCN_TOKEN_FOREIGN || token > TOKEN_FIRST_PRIVATE) && uses_files(copy)) note_word(copy, "");
+      if ((scan_is_word(token) || token > TOKEN_FIRST_PRIVATE) && uses_files(copy)) note_word(copy, "");
       token = pscn_scan_next(&copy->scan);
     }
   }

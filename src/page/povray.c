@@ -144,6 +144,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
   struct text_buffer log = read_log(povray);
   const bool failed = log.failed;
   note_version(povray, &log);
+  povray->refused = out->exit_code != 0;
   if (out->exit_code != 0) {
     listener_tell(povray->listener, TOLD_ERROR, "POV-Ray ended with exit code %d on %s; it says:", out->exit_code,
                   what);

@@ -22,7 +22,7 @@
 /* Seconds that one run may take, by default. */
 #define POVRAY_TIMEOUT 300.0
 
-/* The caller sets all but the last four before povray_open, and keeps them until povray_close. */
+/* The caller sets all before `missing` before povray_open, and keeps them until povray_close. */
 struct povray {
   const struct listener *listener;
   const char *program;        /* searched for in PATH if it has no slash */
@@ -33,6 +33,7 @@ struct povray {
   size_t memory;        /* bytes that it may take; 0: no limit */
   bool optional;        /* its absence is no error */
   bool missing;         /* there is no such program */
+  bool refused;         /* the last run ended with an error of its own */
   struct scratch folder;
   char program_path[SCRATCH_PATH_SIZE];
   char version[64]; /* as it calls itself; "" before povray_open */

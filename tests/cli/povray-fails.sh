@@ -14,7 +14,7 @@ echo "POV-Ray 3.7.0"
 case \$MODE in
   fails) printf 'Parse Error: \\033[31mno\\377 <b>\\n'; exit 1 ;;
   raves | parses) seq 100; echo '==== [Parsing'; [ \$MODE = parses ] || seq 2000; echo 'Parse Error: no'; exit 1 ;;
-  declares) printf '%s\n' "\$@" | grep Declare; exit 1 ;;
+  declares) printf '%s\n' "\$@" | grep 'Declare\|Clock'; exit 1 ;;
   told) echo "\$*, HOME \${HOME##*/}, POVINI \${POVINI-none}"; cat "\$HOME/.povray/3.7/povray.conf"; exit 1 ;;
   steps) ! grep 'u_steps 2' scene.pov || exit 1 ;;
   empty) exit 0 ;;
@@ -22,6 +22,7 @@ case \$MODE in
   broken) echo broken >picture.png; exit ;;
   killed) kill -KILL \$\$ ;;
   slow) sleep 60 ;;
+  writes) head -c 80M /dev/zero >big; sleep 60 ;;
   deaf) trap '' TERM; while :; do read -t 1 <> <(:); done ;;
 esac
 cp $PWD/answer.png picture.png
@@ -36,9 +37,9 @@ chmod +x povray
 mkdir out && echo old >out/check.html
 export MODE TMPDIR=$PWD/tmp
 mkdir tmp
-for MODE in mute fails empty other wide broken killed slow deaf answers fewer; do
+for MODE in mute fails empty other wide broken killed slow deaf writes answers fewer; do
   echo "$MODE:"
-  try timeout 60 pscn check "$scene" $small --povray ./povray --timeout 1 -o out 2>&1 | cat -v | sed "s|$PWD|HERE|g"
+  try timeout 60 pscn check "$scene" $small --povray ./povray --timeout $([ $MODE = writes ] && echo 30 || echo 1) -o out 2>&1 | cat -v | sed "s|$PWD|HERE|g"
   ls -A tmp out
   cat out/check.html
 done
@@ -60,7 +61,7 @@ for MODE in parses raves; do
   grep -c 'povray: [0-9]' said
 done
 echo "what is declared for the scene as written:"
-MODE=declares try pscn check "$scene" $small --declare A=0.1 --declare Longer=-3 --povray ./povray -o out 2>&1
+MODE=declares try pscn check "$scene" $small --clock 0.25 --declare A=0.1 --declare Longer=-3 --povray ./povray -o out 2>&1
 echo "what it is to do, whatever its own settings are, and where it may read and write:"
 POVINI=any.ini MODE=told try pscn check "$scene" $small --povray ./povray -o out 2>&1
 echo "steps, and no flatness of the scene's:"

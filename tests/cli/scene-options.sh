@@ -17,7 +17,7 @@ pscn dump scene.pscn -I first | grep background
 echo 'background { rgb Level } #ifdef (Other) camera { location Other } #end' >scene.pscn
 for level in 0.5 -1e-3 Level; do try pscn dump scene.pscn --declare Level=$level | grep 'background\|exit'; done
 pscn dump scene.pscn --declare Level=1 --declare Other=2 --declare Level=3 | grep 'background\|location'
-for text in Level Level= =1 1a=2 x=1 sphere=1 'a b=1' Level=1x Level=1e999; do try pscn dump scene.pscn --declare "$text"; done
+for text in clock=0.5 Level Level= =1 1a=2 x=1 sphere=1 'a b=1' Level=1x Level=1e999; do try pscn dump scene.pscn --declare "$text"; done
 
 # As many as there is room for.
 folders=$(printf -- '-I nowhere%.0s ' {1..32}) numbers=$(printf -- '--declare N%d=1 ' {1..64})

@@ -64,7 +64,10 @@ TEST(test_messages)
 {
   struct pscn_scene *scene;
   struct pscn_message message;
-  assert_int_equal(from_text("#version 3.5;\ncamera {\n  loaction <0,0,1>\n}\nspher { }\n", NULL, &scene), PSCN_INPUT);
+  assert_int_equal(
+    from_text("global_settings { assumed_gamma 1 assumed_gamma 1 }\ncamera {\n  loaction <0,0,1>\n}\nspher { }\n", NULL,
+              &scene),
+    PSCN_INPUT);
   assert_int_equal(pscn_scene_status(scene), PSCN_INPUT);
   assert_int_equal(pscn_message_count(scene), 3);
   assert_int_equal(pscn_message(scene, 0, &message), PSCN_OK);
@@ -241,7 +244,7 @@ void *__wrap_arena_alloc(struct arena *arena, size_t count, size_t size)
 
 /* Copies of objects in unions, moved and turned; textures and solvers of their own, a light, a camera; and a
  * warning. */
-static const char MANY[] = "#version 3.5;\n"
+static const char MANY[] = "global_settings { assumed_gamma 1 assumed_gamma 1 }\n"
                            "#declare Gold = texture { pigment { rgb <1, Low, 0> } finish { phong 1 } }\n"
                            "#declare A = bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
                            "<0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,1> <3,1,0>\n"
@@ -270,7 +273,7 @@ TEST(test_memory)
   } scenes[] = {{PATCH, PSCN_OK},
                 {MANY, PSCN_OK},
                 {"camera { location -9*z }", PSCN_OK},
-                {"#version 3.5;\ncamera { loaction 0 }", PSCN_INPUT},
+                {"global_settings { assumed_gamma 1 assumed_gamma 1 }\ncamera { loaction 0 }", PSCN_INPUT},
                 {"#declare A = union { object {", PSCN_INPUT}};
   for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
     struct pscn_scene *scene;

@@ -54,7 +54,7 @@ END
 echo '#declare Nothing = 0;' >"scenes and more/only povray.inc"
 echo '#error "parts.inc is found first"' >"scenes and more/parts"
 mkdir "scenes and more/beside"
-echo 'global_settings { solver newton } background { rgb Beside }' >"scenes and more/beside/beside.inc"
+echo 'global_settings { solver newton } background { rgb Beside + clock }' >"scenes and more/beside/beside.inc"
 
 answers() {
   expect 0 "$PSCN" check "$scene" --size 120x90 --steps 4 --failpercent 2 --failpsnr 25 --failmask 2
@@ -75,7 +75,7 @@ answers() {
   cmp -s dumped/povray.png one-check/povray.png || fail "the dump gives another picture"
   grep -q 'of that text, too: --dump' dumped/check.html || fail "the page does not say what POV-Ray read"
   # It finds declared names and included files as the scene does.
-  given=(--declare Beside=0.125 -I "scenes and more/beside" --size 24x18 --steps 0 --grid 0
+  given=(--declare Beside=0.125 --clock 0.25 -I "scenes and more/beside" --size 24x18 --steps 0 --grid 0
     --failpercent 100 --failpsnr 0 --failmask 100)
   expect 0 "$PSCN" check "$scene" "${given[@]}" -o dumped --dump
   expect 0 "$PSCN" check "$scene" "${given[@]}" -o own
