@@ -2,14 +2,14 @@
 set datafile separator ','
 set grid
 set key outside below noenhanced
-set terminal svg size 1100,560 font 'sans,13' background rgb 'white'
+set terminal svg size 1100,660 font 'sans,13' background rgb 'white'
 if (exists('chart')) {
   # Colour for the solver, shape for the form. A point has the columns of the table made by accuracy.sh: solver, form,
   # error of right answers, share of wrong ones, nanoseconds, label.
   solvers = 'bernstein newton laguerre aberth rival Embree'
   colours = '#c02020 #2b6cb0 #2f855a #b7791f #000000 #6b46c1'
   forms = 'leaves whole power paper rival mesh'
-  titles = '"leaves, polish" "whole patches, polish" "power basis, no polish" "form paper" "rivals" "Embree, 16 rays"'
+  titles = '"leaves, polish" "whole patches, polish" "power basis, no polish" "form paper" "rivals" "Embree, 8 rays"'
   shapes = '7 5 9 12 13 6'
   set output out
   set multiplot layout 1,2 title name font ',14'

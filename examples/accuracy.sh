@@ -75,7 +75,8 @@ paper='f["name"] ~ /form paper/'
 leaves=$ours' && f["polish"] == "on" && f["split"] != 1 && NR > 2'
 whole=$ours' && f["polish"] == "on" && f["split"] == 1'
 power=$ours' && f["polish"] == "off" && !('$paper')'
-embree='f["family"] == "embree" && f["name"] ~ /16 coherent/'
+name='f["name"] '
+embree='f["family"] == "embree" && f["name"] ~ /8 coherent/'
 
 # points SCENE: those of the figure.
 points() {
@@ -141,16 +142,18 @@ a miss by a hit, or a hit more than 1 % away; the error of T is relative, of the
 
 - **For pictures that must be right, the default.** Whatever the solver, basis, tolerance, start and split, every answer with polish has the
   rounding error of doubles, and none is wrong: Newton's method on the patch and its certificate decide, and what they leave open goes to the
-  last resort. On leaves only one candidate in hundreds comes to a root finder at all (see the shares below), so the choice of \`aberth\`,
-  \`newton\` or \`laguerre\` there changes the time by a few percent. It matters on whole patches, \`split 1\`.
+  last resort. On leaves few candidates come to a root finder at all (see the shares below); \`newton\`, \`laguerre\` and \`aberth\` take
+  $(span teapot "$leaves" 'f["ratio"]') (teapot) and $(span wild "$leaves" 'f["ratio"]') (wild) of the default's time. The choice matters on whole patches, \`split 1\`:
+  $(span teapot "$whole" 'f["ratio"]') and $(span wild "$whole" 'f["ratio"]').
 - **Of the paper's form, Aberth's method** at eps 1e-6 and 1e-10: $(span teapot "$paper"' && f["solver"] == "aberth" && f["tolerance"] + 0 < 1e-2' 'bad()') wrong answers of
   $(span teapot "$paper" 'f["hits"]' 4) on the teapot, $(span wild "$paper"' && f["solver"] == "aberth" && f["tolerance"] + 0 < 1e-2' 'bad()') of $(span wild "$paper" 'f["hits"]' 4) on the wild
   patches; Newton's and Laguerre's keep $(span teapot "$paper"' && f["solver"] != "aberth" && f["tolerance"] + 0 < 1e-2' 'bad()') and
-  $(span wild "$paper"' && f["solver"] != "aberth" && f["tolerance"] + 0 < 1e-2' 'bad()' 3). All three take some hundred times the default's time. [paper.md](paper.md) says why.
-- **Where a missing pixel does not matter, triangles.** Embree's packets of 16 rays are faster than the default up to 128 x 128 x 2 triangles
-  a patch; the error is that of the triangles, and never below single precision.
-- **Among the rivals, interval Newton and plain Newton.** They are as exact as the default where they find a hit, at 10 to 20 times its time, in scalar code.
-  Bezier clipping takes twice as long, subdivision ten times; eigenvalues a hundred times, and in power basis they lose digits.
+  $(span wild "$paper"' && f["solver"] != "aberth" && f["tolerance"] + 0 < 1e-2' 'bad()' 3). They take $(span teapot "$paper" 'f["ratio"]' 3) and $(span wild "$paper" 'f["ratio"]' 3) times the default's time. [paper.md](paper.md) says why.
+- **Where a missing pixel does not matter, triangles.** Embree's packets of 8 rays take $(span teapot "$embree" 'f["ratio"]') and $(span wild "$embree" 'f["ratio"]') of the
+  default's time, from 8 x 8 x 2 to 256 x 256 x 2 triangles a patch; the error is that of the triangles, and never below single precision.
+- **Among the rivals, Newton and interval Newton.** They take $(span teapot "$name"'~ /^Newton|Krawczyk/' 'f["ratio"]') and $(span wild "$name"'~ /^Newton|Krawczyk/' 'f["ratio"]') times the default's time, in scalar code; Bezier clipping
+  $(span teapot "$name"'~ /clipping/' 'f["ratio"]') and $(span wild "$name"'~ /clipping/' 'f["ratio"]'), subdivision $(span teapot "$name"'~ /subdivision/' 'f["ratio"]' 3) and $(span wild "$name"'~ /subdivision/' 'f["ratio"]' 3). Eigenvalues take
+  $(span teapot "$name"'~ /dhseqr|dggev/' 'f["ratio"]' 3) and $(span wild "$name"'~ /dhseqr|dggev/' 'f["ratio"]' 3); those of the companion matrix lose half of the digits, those of the pencil a quarter.
 
 END
   for scene in "${SCENES[@]}"; do
@@ -177,7 +180,7 @@ $(rows "$scene" "$power")
 $(rows "$scene" "$paper")
 | **rivals, 8 x 8 parts a patch, scalar** | | | | | |
 $(rows "$scene" 'f["family"] == "rival"')
-| **Embree, 16 coherent rays** | | | | | |
+| **Embree, 8 coherent rays** | | | | | |
 $(rows "$scene" "$embree")
 | **POV-Ray, type 1** | | | | | |
 $(rows "$scene" 'f["family"] == "povray" && f["name"] ~ /type 1, u_steps [357]/')
@@ -188,8 +191,8 @@ END
 The rivals, each from its publication, are in [src/chart](../src/chart): Newton's method from the middle of each part (Abert, Geimer, Müller 2006),
 Bezier clipping (Nishita, Sederberg, Kakimoto 1990), interval Newton with Krawczyk's test (Toth 1985), plain subdivision (Whitted 1980), eigenvalues of the companion matrix of r, and of
 the pencil of Bezout's matrix without its determinant (Manocha and Krishnan 1997), both by LAPACK. All get the same parts of patches, boxes and hierarchy, one ray
-at a time, and the tolerance below which T gains no digit. None is told the nearest hit so far. The default works on packets of rays in registers, which is worth a factor of
-4 to 8. Times are of a few thousand rays asked again and again, which favours large meshes: over a whole picture Embree's advantage is smaller ([performance.md](performance.md)).
+at a time, and the tolerance below which T gains no digit. None is told the nearest hit so far. The default works on 4 rays at once with AVX2, 8 with
+AVX-512. Times are of a few thousand rays asked again and again, which favours large meshes: over a whole picture Embree's advantage is smaller ([performance.md](performance.md)).
 
 ## Why hits are lost
 

@@ -13,7 +13,7 @@
  * loose      the method finds the hit with eps = 1e-12
  * other
  *
- * `causes conditions` prints, hit by hit, condition numbers and errors of u instead (conditions_of). */
+ * `causes CLASS` does one class only. `causes conditions` prints, hit by hit, condition numbers and errors of u instead (conditions_of). */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -464,16 +464,19 @@ static bool conditions(void)
 int main(int argc, char **argv)
 {
   if (argc > 1 && strcmp(argv[1], "conditions") == 0) return conditions() ? EXIT_SUCCESS : EXIT_FAILURE;
+  const char *only = argc > 1 ? argv[1] : "";
   bool good = true;
   printf("class,parameters,method,rays,hits,invented,lost,low,high,lower,far,tangent,projected,rounding,euclid,loose,"
          "other\n");
   for (int exchanged = 0; exchanged < 2; exchanged++) {
+    if (*only != '\0' && strncmp(only, "Fig", 3) != 0) break;
     good &= count_picture("Fig 16", "paper.pscn", "start previous tolerance 1e-2", exchanged);
-    good &= count_picture("Fig 17", "paper_magnified.pscn", "start previous tolerance 1e-10", exchanged);
+    if (strcmp(only, "Fig 16") != 0)
+      good &= count_picture("Fig 17", "paper_magnified.pscn", "start previous tolerance 1e-10", exchanged);
   }
   const size_t nets = effort_count(FULL_NETS, LEAST_NETS);
   for (size_t k = 0; k < sizeof CLASSES / sizeof CLASSES[0]; k++)
-    for (int exchanged = 0; exchanged < 2; exchanged++) {
+    for (int exchanged = 0; exchanged < 2 && (*only == '\0' || strcmp(only, CLASSES[k].name) == 0); exchanged++) {
       struct random random = {.state = 7 + k};
       struct counts counts[METHODS] = {0};
       for (size_t index = 0; index < nets; index++) {
