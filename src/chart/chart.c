@@ -52,7 +52,8 @@ static enum status prepare_rays(struct chart *chart, const struct method *option
          wanted < MOST_RAYS)
     status = take_rays(chart, options, wanted *= 2, &hits);
   if (status != STATUS_OK) return status;
-  return rays_of_shadows(chart->scene, &chart->rays[RAYS_CAMERA], hits, chart->arena, &chart->rays[RAYS_SHADOW]);
+  return rays_of_shadows(chart->scene, chart->yardstick.tracer, &chart->rays[RAYS_CAMERA], hits, chart->arena,
+                         &chart->rays[RAYS_SHADOW]);
 }
 
 static enum status find_truths(struct chart *chart)

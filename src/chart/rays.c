@@ -58,8 +58,8 @@ enum status rays_of_camera(const struct scene *scene, size_t width, size_t heigh
   return STATUS_OK;
 }
 
-enum status rays_of_shadows(const struct scene *scene, const struct ray_list *camera, const struct hit *hits,
-                            struct arena *arena, struct ray_list *out)
+enum status rays_of_shadows(const struct scene *scene, struct tracer *tracer, const struct ray_list *camera,
+                            const struct hit *hits, struct arena *arena, struct ray_list *out)
 {
   size_t lights = 0;
   for (size_t l = 0; l < scene->light_count; l++) lights += !scene->lights[l].shadowless;
@@ -74,7 +74,8 @@ enum status rays_of_shadows(const struct scene *scene, const struct ray_list *ca
       const size_t first = out->count;
       for (size_t k = packet->first; k < packet->first + packet->count; k++) {
         const bool hit = hits[k].patch != HIT_NONE;
-        out->count += hit && shade_shadow_ray(&scene->lights[l], &hits[k], &out->rays[out->count]);
+        out->count += hit &&
+                      shade_shadow_ray(&scene->lights[l], tracer, &camera->rays[k], &hits[k], &out->rays[out->count]);
       }
       if (out->count == first) continue;
       out->packets[out->packet_count++] = (struct ray_packet){first, out->count - first, new_run};

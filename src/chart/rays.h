@@ -35,8 +35,8 @@ enum status rays_of_camera(const struct scene *scene, size_t width, size_t heigh
                            struct ray_list *out) STATUS_MUST_CHECK;
 
 /* The shadow rays that the renderer sends from the hits of `camera`, where hits[] are the answers to its rays: packet
- * by packet, one light after the other. */
-enum status rays_of_shadows(const struct scene *scene, const struct ray_list *camera, const struct hit *hits,
-                            struct arena *arena, struct ray_list *out) STATUS_MUST_CHECK;
+ * by packet, one light after the other. `tracer` is of that scene. */
+enum status rays_of_shadows(const struct scene *scene, struct tracer *tracer, const struct ray_list *camera,
+                            const struct hit *hits, struct arena *arena, struct ray_list *out) STATUS_MUST_CHECK;
 
 #endif

@@ -56,7 +56,7 @@ static void look_at_row(struct check *check, struct tracer *tracer, size_t y, st
     }
     for (size_t light = 0; light < lights; light++) {
       bool lit[PACKET_SIZE];
-      shade_lit(&check->scene->lights[light], tracer, count, hits, lit);
+      shade_lit(&check->scene->lights[light], tracer, count, rays, hits, lit);
       for (size_t k = 0; k < count; k++) out[x + k].lights |= (uint64_t)lit[k] << light;
     }
   }

@@ -7,6 +7,7 @@
 #include "base/kernel.h"
 #include "base/memory.h"
 #include "geometry/vector.h"
+#include "intersect/point.h"
 #include "intersect/tracer.h"
 
 struct intersector {
@@ -240,10 +241,56 @@ enum status tracer_all(struct tracer *tracer, size_t count, const struct ray ray
   return STATUS_OK;
 }
 
-void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3])
+/* ---- rays that leave a hit ---- */
+
+/* At less than this sine between ray and surface, the way back along the ray is no longer than the clearance over this.
+ */
+#define LEAST_SLANT 0x1p-20
+
+/* A hit as near as this to a border of its patch, in parameters, may have another surface beside it. */
+#define BESIDE_BORDER 0x1p-20
+
+/* Starts are tried up to LEAVE_LONGER^LEAVE_TRIES times as far back. A choice: 2^20 times a clearance of some 2^-43. */
+enum { LEAVE_TRIES = 5, LEAVE_LONGER = 16 };
+
+/* The point of the ray that lies `back` before the hit, in units of t. What is not proven may be off the ray. */
+static void point_before(const struct ray *ray, const struct hit *hit, double back, double out[3])
 {
-  const double side = vector_dot(hit->normal, direction) < 0 ? -hit->clearance : hit->clearance;
-  vector_add_scaled(hit->point, side, hit->normal, out_origin);
+  const double *d = ray->direction, t = fmax(hit->t - back, ray->t_min);
+  const bool sure = hit->certainty == CERTAINTY_CERTAIN;
+  for (int k = 0; k < 3; k++) {
+    out[k] = sure ? fma(t, d[k], ray->origin[k]) : hit->point[k] - back * d[k];
+    if (sure && d[k] != 0) out[k] = nextafter(out[k], ray->origin[k]);
+  }
+}
+
+/* Whether nothing is between the ray's start and the point. */
+static bool start_sees(struct tracer *tracer, const struct ray *ray, const double point[3])
+{
+  struct ray back = {.t_max = 1};
+  bool occluded = false;
+  const uint64_t before = tracer->counts.rays[1];
+  for (int k = 0; k < 3; k++) {
+    back.origin[k] = point[k];
+    back.direction[k] = fma(ray->t_min, ray->direction[k], ray->origin[k]) - point[k];
+  }
+  if (vector_length(back.direction) > 0) tracer_occluded(tracer, 1, &back, &occluded);
+  tracer->counts.rays[1] = before;
+  return !occluded;
+}
+
+void tracer_leave(struct tracer *tracer, const struct ray *ray, const struct hit *hit, const double direction[3],
+                  double out_origin[3])
+{
+  const double length = vector_length(ray->direction);
+  const double slant = fmax(fabs(vector_dot(hit->normal, ray->direction)) / length, LEAST_SLANT);
+  double back = hit->clearance / slant / length;
+  const bool through = vector_dot(hit->normal, direction) < 0;
+  const double from_border = fmin(fmin(hit->u, 1 - hit->u), fmin(hit->v, 1 - hit->v));
+  point_before(ray, hit, through ? -back : back, out_origin);
+  if (through || hit->certainty != CERTAINTY_CERTAIN || from_border > BESIDE_BORDER) return;
+  for (int n = 0; n < LEAVE_TRIES && !start_sees(tracer, ray, out_origin); n++)
+    point_before(ray, hit, back *= LEAVE_LONGER, out_origin);
 }
 
 const struct intersect_counts *tracer_counts(const struct tracer *tracer) { return &tracer->counts; }

@@ -47,7 +47,7 @@ struct hit {
   double u, v;        /* parameters of the whole patch, in [0,1] */
   double point[3];    /* S(u,v) */
   double point_error; /* absolute bound on the distance from `point` to the exact patch */
-  /* how far from `point` off the surface a ray must start to be told from one that starts on the surface */
+  /* how far off the surface a ray must start to be told from one that starts on the surface (tracer_leave) */
   double clearance;
   double normal[3]; /* unit, facing the ray's origin */
 };
@@ -126,9 +126,24 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
 enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[],
                        struct hit_list out[]) STATUS_MUST_CHECK;
 
-/* An origin for a ray that leaves the surface at `hit` along `direction`: moved off the surface by the clearance, to
- * the side to which `direction` points. From there the ray neither meets the sheet it leaves nor skips one beyond. */
-void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3]);
+/* The origin of a ray that leaves the surface at the `hit` of `ray` along `direction`, such as a shadow ray: a point of
+ * `ray` itself from which the surface is `clearance` away. If `direction` points to the normal's side, the point is
+ * before the hit, or where the ray starts if that is nearer. Nothing is between, so it is in the same cell of space as
+ * the ray's start, even where surfaces meet at an acute angle; a point beside the hit need not be.
+ *
+ * Proven for a certain hit. The exact point is before the exact hit, at a t that is one of doubles. Each coordinate of
+ * *out_origin is that of the point rounded, and one double nearer to the ray's start: off it by e <= 2^-52 of itself,
+ * while the clearance is at least 256 e. So *out_origin is in the same cell unless another surface comes within sqrt(3)
+ * e of that point, which no plane across an axis does that the ray meets later, nor any other if the ray meets it at or
+ * behind the hit under an angle whose sine is 1/100 of the hit's or more. Next to a border of the patch, where such a
+ * surface may be expected, the view from *out_origin back to the ray's start is traced, and a start farther back is
+ * taken until nothing is in it. That proves that the cell is the same, but for what is within e of the ray's start.
+ *
+ * Not proven: where surfaces of other patches pass through this one, or nearly touch it, at an angle to the ray as small
+ * as said; in rooms no wider than the clearance; behind the hit, if `direction` points to the other side; for grazing
+ * hits, for which the start is taken from `point`, because a solver's bare root may be off the ray. */
+void tracer_leave(struct tracer *tracer, const struct ray *ray, const struct hit *hit, const double direction[3],
+                  double out_origin[3]);
 
 const struct intersect_counts *tracer_counts(const struct tracer *tracer);
 

@@ -25,10 +25,10 @@
   (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
 
 /* A ray that starts nearer to the surface than this plus the point's own error cannot be told from one that starts on
- * it: the rounding of the new origin, and the distance within which the last resort cannot exclude a root,
+ * it: 256 times the rounding of the new origin (tracer_leave), and the distance within which the last resort cannot exclude a root,
  * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
  * box, and what a copy is loose by; doubled because the planes are oblique. */
 #define CLEARANCE(scale, loose, magnitude) \
-  (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
+  (512 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
 
 #endif

@@ -192,8 +192,8 @@ struct pscn_ray {
   double origin[3];
   double direction[3]; /* any length but 0; the ray's points are origin + t direction */
   /* 0 <= t_min. A hit has t_min < t < t_max, so there is none if t_max <= t_min. The exact t decides. The t of a hit is
-   * rounded: a ray that continues with t_min = t may meet the same point again, one double farther. pscn_leave starts
-   * it behind the point, and pscn_all gives all hits. If no double lies between t_min and t_max, the t of a hit is
+   * rounded: a ray that continues with t_min = t may meet the same point again, one double farther; pscn_all
+   * gives all hits. If no double lies between t_min and t_max, the t of a hit is
    * t_max. */
   double t_min, t_max;
 };
@@ -249,10 +249,21 @@ PSCN_API enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count,
                                    ptrdiff_t ray_stride, struct pscn_hits *counts, ptrdiff_t counts_stride,
                                    struct pscn_hit *hits, ptrdiff_t row_stride, size_t most);
 
-/* An origin for a ray that leaves the surface at `hit` along `direction`, such as a shadow ray or a mirrored one: the
- * point moved off the surface by the clearance, to the side that the direction points to. The ray neither meets the
- * sheet that it leaves nor skips one beyond it. */
-PSCN_API void pscn_leave(const struct pscn_hit *hit, const double direction[3], double out_origin[3]);
+/* An origin for a ray that leaves the surface at the `hit` of `ray` along `direction`, such as a shadow ray or a mirrored
+ * one: a point of `ray` itself, before the hit, from which the surface is `clearance` away; or where `ray` starts, if
+ * that is nearer. Of a certain hit nothing lies between the ray's start and this point. So where surfaces close a space
+ * in, a ray from this point is in the same space as the ray's start, even in an acute crease. (Proven up to the
+ * rounding of the point, by 2^-52 of its coordinates. Another surface may lie within that only if the ray runs along it
+ * at an angle with 1/100 of the sine of the angle at the hit, or less. Next to a border of the patch even that is
+ * excluded, by tracing a ray back from the point. Light that lies within the clearance before a surface may be missed.)
+ *
+ * If `direction` points to the other side, the point lies as far behind the hit, and nothing is proven: what is nearer
+ * to the surface is skipped. pscn_all skips nothing. Any thread may call this; it allocates nothing.
+ *
+ * PSCN_USAGE if `hit` is none, a pointer is NULL, or the scene was not built, and PSCN_INPUT if the ray is invalid; the
+ * origin is then not a number. */
+PSCN_API enum pscn_status pscn_leave(const struct pscn_scene *scene, const struct pscn_ray *ray,
+                                     const struct pscn_hit *hit, const double direction[3], double out_origin[3]);
 
 #ifdef __cplusplus
 }

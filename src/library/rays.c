@@ -239,13 +239,26 @@ enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const st
   return ask(scene, &asked, count, &call);
 }
 
-void pscn_leave(const struct pscn_hit *hit, const double direction[3], double out_origin[3])
+enum pscn_status pscn_leave(const struct pscn_scene *scene, const struct pscn_ray *ray, const struct pscn_hit *hit,
+                            const double direction[3], double out_origin[3])
 {
-  struct hit from = {.clearance = hit->clearance};
+  struct ray on;
+  if (!out_origin) return PSCN_USAGE;
+  for (int k = 0; k < 3; k++) out_origin[k] = NAN;
+  if (pscn_scene_status(scene) != PSCN_OK || !ray || !hit || !direction || hit->verdict != PSCN_HIT) return PSCN_USAGE;
+  if (!take_ray(ray, &on)) return PSCN_INPUT;
+  struct hit from = {.certainty = hit->certain ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING,
+                     .t = hit->t,
+                     .u = hit->u,
+                     .v = hit->v,
+                     .clearance = hit->clearance};
   memcpy(from.point, hit->point, sizeof from.point);
   memcpy(from.normal, hit->normal, sizeof from.normal);
   struct calm calm;
+  struct tracer tracer;
   calm_begin(&calm);
-  hit_leave(&from, direction, out_origin);
+  tracer_begin(scene->intersector, &tracer);
+  tracer_leave(&tracer, &on, &from, direction, out_origin);
   calm_end(&calm);
+  return PSCN_OK;
 }

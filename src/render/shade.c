@@ -64,12 +64,13 @@ static void add_light(const struct view *view, const struct scene_light *light, 
   for (int k = 0; k < 3; k++) rgb[k] += light->color[k] * (diffuse * view->texture->pigment[k] + highlight);
 }
 
-bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, struct ray *out)
+bool shade_shadow_ray(const struct scene_light *light, struct tracer *tracer, const struct ray *ray,
+                      const struct hit *hit, struct ray *out)
 {
   double way[3];
   vector_subtract(light->position, hit->point, way);
   if (!(vector_dot(way, hit->normal) > 0)) return false;
-  hit_leave(hit, way, out->origin);
+  tracer_leave(tracer, ray, hit, way, out->origin);
   vector_subtract(light->position, out->origin, out->direction);
   const double *d = out->direction;
   if (d[0] == 0 && d[1] == 0 && d[2] == 0) /* the light is at the very point we moved to */
@@ -79,27 +80,27 @@ bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, st
   return true;
 }
 
-void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct hit hits[],
-               bool out_lit[])
+void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct ray rays[],
+               const struct hit hits[], bool out_lit[])
 {
   struct ray shadow[PACKET_SIZE];
   bool hidden[PACKET_SIZE] = {false};
-  size_t rays = 0;
+  size_t sent = 0;
   for (size_t k = 0; k < count; k++) {
-    out_lit[k] = hits[k].patch != HIT_NONE && shade_shadow_ray(light, &hits[k], &shadow[rays]);
-    rays += out_lit[k];
+    out_lit[k] = hits[k].patch != HIT_NONE && shade_shadow_ray(light, tracer, &rays[k], &hits[k], &shadow[sent]);
+    sent += out_lit[k];
   }
-  if (rays > 0 && !light->shadowless) tracer_occluded(tracer, rays, shadow, hidden);
+  if (sent > 0 && !light->shadowless) tracer_occluded(tracer, sent, shadow, hidden);
   for (size_t k = 0, ray = 0; k < count; k++)
     if (out_lit[k]) out_lit[k] = !hidden[ray++];
 }
 
 /* Adds one light to the hits of a packet. */
-static void light_packet(const struct scene_light *light, struct tracer *tracer, size_t count,
+static void light_packet(const struct scene_light *light, struct tracer *tracer, size_t count, const struct ray rays[],
                          const struct view views[], const struct hit hits[], double out_rgb[][3])
 {
   bool lit[PACKET_SIZE];
-  shade_lit(light, tracer, count, hits, lit);
+  shade_lit(light, tracer, count, rays, hits, lit);
   for (size_t k = 0; k < count; k++) {
     double way[3], to_light[3];
     if (!lit[k]) continue;
@@ -126,7 +127,8 @@ void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count
     for (int c = 0; c < 3; c++)
       out_rgb[k][c] = texture->finish.ambient[c] * scene->ambient_light[c] * texture->pigment[c];
   }
-  for (size_t k = 0; k < scene->light_count; k++) light_packet(&scene->lights[k], tracer, count, views, hits, out_rgb);
+  for (size_t k = 0; k < scene->light_count; k++)
+    light_packet(&scene->lights[k], tracer, count, rays, views, hits, out_rgb);
   if (scene->gamma == 1) return;
   for (size_t k = 0; k < count; k++)
     for (int c = 0; c < 3; c++) out_rgb[k][c] = gamma_to_light(scene->gamma, out_rgb[k][c]);

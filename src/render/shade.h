@@ -19,14 +19,15 @@
 #include "intersect/intersect.h"
 #include "scene/scene.h"
 
-/* The shadow ray from `hit` to `light`. It starts beside the surface (hit_leave) and ends just before the light, so
- * that a surface on which the light lies does not hide it. Returns false, and writes nothing, if the light is not on
+/* The shadow ray from `hit` to `light`. It starts on `ray` before the hit (tracer_leave), and ends
+ * 2^-26 of the way before the light, so that a surface on which the light lies does not hide it. Returns false, and writes nothing, if the light is not on
  * the viewer's side. */
-bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, struct ray *out);
+bool shade_shadow_ray(const struct scene_light *light, struct tracer *tracer, const struct ray *ray,
+                      const struct hit *hit, struct ray *out);
 
 /* Which of `count` <= PACKET_SIZE hits the light reaches: it is on the viewer's side, and nothing hides it. */
-void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct hit hits[],
-               bool out_lit[]);
+void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct ray rays[],
+               const struct hit hits[], bool out_lit[]);
 
 /* The colours, as linear light, of `count` <= PACKET_SIZE rays with their closest hits; shadow rays go through the tracer. */
 void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count, const struct ray rays[],

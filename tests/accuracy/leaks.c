@@ -255,12 +255,12 @@ static void test_leave(void **state)
         length += next.direction[axis] * next.direction[axis];
       }
       if (!(sqrt(length) > least_chord * scales[place]) || cosine < least_cosine * sqrt(length)) continue;
-      hit_leave(&hit, next.direction, next.origin);
+      tracer_leave(trial.tracer, &ray, &hit, next.direction, next.origin);
       tracer_closest(trial.tracer, 1, &next, &second);
       if (second.patch == HIT_NONE || second.t > 1.01) skipped++;
       if (second.patch != HIT_NONE && second.t < 0.99) acne++;
       for (int axis = 0; axis < 3; axis++) next.direction[axis] = -next.direction[axis];
-      hit_leave(&hit, next.direction, next.origin);
+      tracer_leave(trial.tracer, &ray, &hit, next.direction, next.origin);
       bool occluded;
       tracer_occluded(trial.tracer, 1, &next, &occluded);
       outwards += occluded;

@@ -244,10 +244,39 @@ static void test_ranges(void **state)
     memcpy(leaving.direction, hit->normal, sizeof leaving.direction);
     const bool inside =
       hit->normal[0] * hit->point[0] + hit->normal[1] * hit->point[1] + hit->normal[2] * hit->point[2] < 0;
-    pscn_leave(hit, leaving.direction, leaving.origin);
+    assert_int_equal(pscn_leave(rays->scene, &rays->ray[n], hit, leaving.direction, leaving.origin), PSCN_OK);
     assert_int_equal(pscn_nearest(rays->scene, 1, &leaving, 0, &other, 0), PSCN_OK);
     assert_int_equal(other.verdict, inside ? PSCN_HIT : PSCN_MISS);
   }
+}
+
+/* A mirrored ray starts within the crease that the first ray came into, be it as acute as this. A start off the floor
+ * along its normal would be above the roof. */
+static void test_leave_in_a_crease(void **state)
+{
+  (void)state;
+  double nets[2][4][4][3];
+  struct pscn_scene *scene;
+  for (int k = 0; k < 32; k++) {
+    const double x = k / 4 % 4, z = k % 4 - 1.5, at[3] = {x, k < 16 ? 0 : x / 4, z};
+    memcpy(nets[k / 16][k / 4 % 4][k % 4], at, sizeof at);
+  }
+  assert_int_equal(pscn_scene_from_points(nets[0][0][0], 2, sizeof nets[0], sizeof nets[0][0][0], NULL, &scene),
+                   PSCN_OK);
+  for (int k = 0; k < 60; k++) {
+    const double x = ldexp(1, -k);
+    const struct pscn_ray ray = {{2 + x, 0.25, 0.1}, {-2, -0.25, 0}, 0, INFINITY};
+    struct pscn_hit hit;
+    struct pscn_ray next = {.direction = {0, 1, 0}, .t_max = INFINITY};
+    uint8_t verdict;
+    assert_int_equal(pscn_nearest(scene, 1, &ray, 0, &hit, 0), PSCN_OK);
+    assert_int_equal(pscn_leave(scene, &ray, &hit, next.direction, next.origin), PSCN_OK);
+    assert_int_equal(pscn_occluded(scene, 1, &next, 0, &verdict, 0), PSCN_OK);
+    assert_int_equal(verdict, PSCN_HIT);
+    assert_true(next.origin[1] > 0 && next.origin[1] < next.origin[0] / 4);
+    assert_int_equal(pscn_leave(NULL, &ray, &hit, next.direction, next.origin), PSCN_USAGE);
+  }
+  pscn_scene_free(scene);
 }
 
 /* Directions as short and as long as they may be. Beyond that they are no directions. */
@@ -321,6 +350,18 @@ static void test_no_answer(void **state)
   pscn_scene_free(broken);
 }
 
+/* A start that each hit's ray leaves it by, back the way it came; none for a miss. */
+static void leave_all(const struct rays *rays, double out[][3])
+{
+  for (int k = 0; k < COUNT; k++) {
+    const struct pscn_hit *hit = &rays->hit[k];
+    const bool is_hit = hit->verdict == PSCN_HIT;
+    const enum pscn_status status = pscn_leave(rays->scene, &rays->ray[k], hit, hit->normal, out[k]);
+    assert_int_equal(status, is_hit ? PSCN_OK : PSCN_USAGE);
+    if (!is_hit) memset(out[k], 0, sizeof out[k]);
+  }
+}
+
 /* With another arithmetic of the caller's, answers have the same bits, and that arithmetic is restored. */
 static void test_arithmetic(void **state)
 {
@@ -329,7 +370,7 @@ static void test_arithmetic(void **state)
   static double left[2][COUNT][3];
   fenv_t before;
   assert_int_equal(fegetenv(&before), 0);
-  for (int k = 0; k < COUNT; k++) pscn_leave(&rays->hit[k], rays->ray[k].direction, left[0][k]);
+  leave_all(rays, left[0]);
   feclearexcept(FE_ALL_EXCEPT);
   assert_int_equal(pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits), PSCN_OK);
   assert_int_equal(fetestexcept(FE_ALL_EXCEPT), 0);
@@ -341,7 +382,7 @@ static void test_arithmetic(void **state)
   feclearexcept(FE_ALL_EXCEPT);
   const int traps_wanted = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW, asked = feenableexcept(traps_wanted);
   const enum pscn_status status = pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits);
-  for (int k = 0; k < COUNT; k++) pscn_leave(&rays->hit[k], rays->ray[k].direction, left[1][k]);
+  leave_all(rays, left[1]);
   struct pscn_scene *scene = make_ball();
   const int round = fegetround(), raised = fetestexcept(FE_ALL_EXCEPT), traps = fegetexcept();
 #if defined(__SSE2__)
@@ -504,6 +545,7 @@ int main(void)
     cmocka_unit_test(test_occluded),
     cmocka_unit_test(test_occluded_end_of_work),
     cmocka_unit_test(test_ranges),
+    cmocka_unit_test(test_leave_in_a_crease),
     cmocka_unit_test(test_lengths),
     cmocka_unit_test(test_no_answer),
     cmocka_unit_test(test_arithmetic),

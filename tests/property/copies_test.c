@@ -234,7 +234,7 @@ static void leave(struct pair *pair)
     if (hit.patch == HIT_NONE || hit.certainty != CERTAINTY_CERTAIN) continue;
     struct ray ray = {{0}, {0}, 0, INFINITY};
     for (int k = 0; k < 3; k++) ray.direction[k] = random_between(&random, -1, 1);
-    hit_leave(&hit, ray.direction, ray.origin);
+    tracer_leave(pair->tracer[0], &pair->rays[n], &hit, ray.direction, ray.origin);
     for (int k = 0; k < 2; k++) tracer_closest(pair->tracer[k], 1, &ray, &next[k]);
     if (hits_agree(&ray, &next[0], &next[1])) continue;
     if (wrong++ < 3) {

@@ -107,6 +107,28 @@ static void of_twins_none_is_looked_at(void **state)
   world_close(&world);
 }
 
+/* ---- points ---- */
+
+/* A patch of equal points is one leaf, however finely it is to be cut: a ray that passes it, as nearly as boxes can
+ * tell, meets what is behind. */
+static void a_point_takes_little(void **state)
+{
+  (void)state;
+  world_net nets[2];
+  struct method fine;
+  struct world world;
+  method_default(solver_at(0), &fine);
+  fine.split = 64;
+  sheet(0, nets[1]);
+  for (int k = 0; k < 16; k++) memcpy(nets[0][k / 4][k % 4], (const double[3]){0.1, 0.3, -1}, sizeof nets[0][0][0]);
+  world_open(&world, nets, 2, &fine);
+  const struct ray ray = {.origin = {0.1, 0.3, -4}, .direction = {0, 1e-17, 1}, .t_max = INFINITY};
+  const struct hit hit = world_closest(&world, &ray);
+  assert_int_equal(hit.patch, 1);
+  assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+  world_close(&world);
+}
+
 /* ---- next to poles ---- */
 
 /* An eighth of a ball as large as a planet, its pole at 0. */
@@ -146,8 +168,9 @@ static void next_to_poles_little_is_left_open(void **state)
       const struct hit hit = world_closest(&world, &ray);
       assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
       if (hit.patch == HIT_NONE) continue;
+      const struct ray came = ray;
       ray.direction[1] = random_between(&random, 0.1, 1);
-      hit_leave(&hit, ray.direction, ray.origin);
+      tracer_leave(world.tracer, &came, &hit, ray.direction, ray.origin);
       assert_int_equal(world_closest(&world, &ray).patch, HIT_NONE);
     }
     const uint64_t open = tracer_counts(world.tracer)->escalated;
@@ -396,6 +419,7 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
                                      cmocka_unit_test(of_lines_few_are_tried),
                                      cmocka_unit_test(of_twins_none_is_looked_at),
+                                     cmocka_unit_test(a_point_takes_little),
                                      cmocka_unit_test(next_to_poles_little_is_left_open),
                                      cmocka_unit_test(next_to_poles_little_is_left_open_aslant),
                                      cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),

@@ -115,7 +115,7 @@ TEST(leaving_a_surface_does_not_meet_it)
         const double side = vector_dot(d, hit.normal);
         if (fabs(side) < 0.1) continue;
         struct ray next = {{0}, {d[0], d[1], d[2]}, 0, kind == WORLD_WILD ? 1e-6 : 1e-4};
-        hit_leave(&hit, d, next.origin);
+        tracer_leave(world.tracer, &ray, &hit, d, next.origin);
         const struct hit again = world_closest(&world, &next);
         left++;
         if (again.patch != HIT_NONE && wrong++ < 5) world_print_case("left", kind, &next, &hit, &again);
@@ -149,7 +149,7 @@ TEST(a_sheet_right_behind_is_not_skipped)
       const struct hit first = world_closest(&world, &ray);
       if (first.patch == HIT_NONE || first.patch >= count || first.normal[2] < 0.3) continue;
       struct ray next = {{0}, {0, 0, -1}, 0, INFINITY};
-      hit_leave(&first, next.direction, next.origin);
+      tracer_leave(world.tracer, &ray, &first, next.direction, next.origin);
       const struct hit second = world_closest(&world, &next);
       assert_true(second.patch != HIT_NONE && second.patch >= count);
       assert_true(fabs(second.t - gap) < 1e-2 * gap);

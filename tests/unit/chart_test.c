@@ -244,15 +244,16 @@ TEST(test_shadow_rays)
                                  {.position = {0, 0, 6}},
                                  {.position = {0, 0, 7}}};
   const struct scene scene = {.lights = lights, .light_count = LIGHTS + 1};
-  struct ray rays[PACKETS] = {{.t_max = 1}};
+  struct ray rays[PACKETS];
   struct ray_packet packets[PACKETS] = {{0, 1, true}, {1, 1, false}, {2, 1, false}, {3, 1, true}, {4, 1, false}};
   const struct ray_list camera = {.rays = rays, .packets = packets, .count = PACKETS, .packet_count = PACKETS};
-  const struct hit hit = {.patch = 0, .normal = {0, 0, 1}}, miss = {.patch = HIT_NONE};
+  const struct hit hit = {.patch = 0, .u = 0.5, .v = 0.5, .normal = {0, 0, 1}}, miss = {.patch = HIT_NONE};
   const struct hit hits[PACKETS] = {miss, hit, hit, miss, hit};
   const bool begins[HITS] = {true, false, true};
+  for (int k = 0; k < PACKETS; k++) rays[k] = (struct ray){.direction = {0, 0, -1}, .t_max = 1};
   struct arena *arena = arena_create();
   struct ray_list shadows;
-  assert_int_equal(rays_of_shadows(&scene, &camera, hits, arena, &shadows), STATUS_OK);
+  assert_int_equal(rays_of_shadows(&scene, NULL, &camera, hits, arena, &shadows), STATUS_OK);
   assert_int_equal(shadows.count, LIGHTS * HITS);
   assert_int_equal(shadows.packet_count, LIGHTS * HITS);
   for (size_t k = 0; k < LIGHTS * HITS; k++) {

@@ -201,10 +201,10 @@ static void a_light_may_be_where_its_shadow_ray_begins(void **state)
   tracer_closest(tracer, 1, &ray, &hit);
   struct scene_light light = {.position = {2, 1, 1}};
   struct ray shadow;
-  assert_true(shade_shadow_ray(&light, &hit, &shadow));
+  assert_true(shade_shadow_ray(&light, tracer, &ray, &hit, &shadow));
   assert_true(shadow.direction[0] == 0 && shadow.direction[2] == light.position[2] - shadow.origin[2]);
   memcpy(light.position, shadow.origin, sizeof light.position);
-  assert_true(shade_shadow_ray(&light, &hit, &shadow));
+  assert_true(shade_shadow_ray(&light, tracer, &ray, &hit, &shadow));
   assert_memory_equal(light.position, shadow.origin, sizeof light.position);
   assert_true(shadow.direction[2] < 0);
   tracer_destroy(tracer);
