@@ -43,6 +43,7 @@
 #ifndef PSCN_H
 #define PSCN_H
 
+#include <math.h> /* INFINITY, of PSCN_RAY */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -146,6 +147,14 @@ PSCN_API enum pscn_status pscn_scene_from_points(const double *points, size_t co
                                                  ptrdiff_t point_stride, const struct pscn_options *options,
                                                  struct pscn_scene **out);
 
+/* Patches as sixteen indices each, in the order of P, of vertices, three doubles each. Patches that have the indices of
+ * an edge in common share it. If there are instances, matrices M[4][3], all patches stand in the scene once for each of
+ * them, points p moved to p[0] M[0] + p[1] M[1] + p[2] M[2] + M[3]; patch n of instance m has the number m count + n.
+ * NULL and 0: once, as they are. */
+PSCN_API enum pscn_status pscn_scene_from_indexed(const double *vertices, size_t vertex_count, const uint32_t *patches,
+                                                  size_t count, const double *instances, size_t instance_count,
+                                                  const struct pscn_options *options, struct pscn_scene **out);
+
 /* Only when no call uses the scene any more. NULL is allowed. */
 PSCN_API void pscn_scene_free(struct pscn_scene *scene);
 
@@ -169,6 +178,24 @@ PSCN_API enum pscn_status pscn_message(const struct pscn_scene *scene, size_t nu
  * transforms applied. If no patch has that number, it returns PSCN_USAGE and writes zeros. */
 PSCN_API size_t pscn_patch_count(const struct pscn_scene *scene);
 PSCN_API enum pscn_status pscn_patch(const struct pscn_scene *scene, size_t number, double out[4][4][3]);
+
+/* The least and the greatest coordinates of a patch's control points, or of all patches': the surface is between them.
+ * If no patch has that number, or there is none, it returns PSCN_USAGE and writes zeros. */
+#define PSCN_ALL_PATCHES SIZE_MAX
+PSCN_API enum pscn_status pscn_bounds(const struct pscn_scene *scene, size_t number, double out[2][3]);
+
+/* Points of patches: S, its derivatives, and the unit normal along dS/du x dS/dv or, where that is 0, its limit from
+ * inside the patch; 0 if there is none. Right to roundings of the patch's size. Strides as for rays, below. A place with
+ * u or v outside [0,1], or of no patch, gets numbers that are none, and the call returns PSCN_INPUT. */
+struct pscn_place {
+  double u, v;
+  uint32_t patch, reserved;
+};
+struct pscn_surface {
+  double point[3], du[3], dv[3], normal[3];
+};
+PSCN_API enum pscn_status pscn_surface(const struct pscn_scene *scene, size_t count, const struct pscn_place *places,
+                                       ptrdiff_t place_stride, struct pscn_surface *out, ptrdiff_t out_stride);
 
 /* The camera, or POV-Ray's default if the text has none. The ray through the point (s,t) of the picture, s from 0 at
  * the left to 1 and t from 0 at the top to 1, leaves `location` along direction + (s - 1/2) right + (1/2 - t) up. Zeros
@@ -198,6 +225,12 @@ struct pscn_ray {
   double t_min, t_max;
 };
 
+/* What a ray starts from, so that none of its members is forgotten: origin and direction are 0, the range is all. */
+#define PSCN_RAY                      \
+  {                                   \
+    {0, 0, 0}, {0, 0, 0}, 0, INFINITY \
+  }
+
 enum pscn_verdict { PSCN_MISS = 0, PSCN_HIT = 1, PSCN_NO_ANSWER = 2 };
 
 #define PSCN_NO_PATCH UINT32_MAX
@@ -221,6 +254,16 @@ struct pscn_hit {
 /* The nearest hit of each ray. */
 PSCN_API enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                        ptrdiff_t ray_stride, struct pscn_hit *hits, ptrdiff_t hit_stride);
+
+/* The same in 40 bytes where point and normal are not needed, which is faster. */
+struct pscn_answer {
+  double t, u, v;
+  uint32_t patch;
+  int32_t verdict, certain, reserved;
+};
+PSCN_API enum pscn_status pscn_nearest_answer(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
+                                              ptrdiff_t ray_stride, struct pscn_answer *answers,
+                                              ptrdiff_t answer_stride);
 
 /* Whether each ray hits anything: one byte, an enum pscn_verdict. Faster than the nearest hit. A grazing hit counts as
  * a hit; so does any possible hit of a ray whose work runs out. */

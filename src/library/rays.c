@@ -88,6 +88,30 @@ static void write_nearest(struct call *call, size_t number, enum pscn_verdict ve
   memcpy(answer_at(call, number), &hit, sizeof hit);
 }
 
+/* ---- the same in short ---- */
+
+static void write_short(struct call *call, size_t number, enum pscn_verdict verdict)
+{
+  const struct pscn_answer answer = {
+    .t = INFINITY, .patch = PSCN_NO_PATCH, .verdict = (int32_t)verdict, .certain = verdict == PSCN_MISS};
+  memcpy(answer_at(call, number), &answer, sizeof answer);
+}
+
+static void answer_short(struct call *call, const struct packet *packet)
+{
+  struct hit hits[PACKET_SIZE];
+  tracer_closest(call->tracer, packet->count, packet->rays, hits);
+  for (size_t k = 0; k < packet->count; k++) {
+    struct pscn_answer answer = {
+      .t = INFINITY, .patch = PSCN_NO_PATCH, .certain = hits[k].certainty == CERTAINTY_CERTAIN};
+    if (hits[k].patch != HIT_NONE) {
+      answer.t = hits[k].t, answer.u = hits[k].u, answer.v = hits[k].v;
+      answer.patch = hits[k].patch, answer.verdict = PSCN_HIT;
+    }
+    memcpy(answer_at(call, packet->number[k]), &answer, sizeof answer);
+  }
+}
+
 /* ---- any hit ---- */
 
 static void write_occluded(struct call *call, size_t number, enum pscn_verdict verdict)
@@ -211,6 +235,15 @@ enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, cons
   static const struct asked asked = {answer_nearest, write_nearest, false};
   struct call call = {
     .rays = (const char *)rays, .answers = (char *)hits, .ray_stride = ray_stride, .answer_stride = hit_stride};
+  return ask(scene, &asked, count, &call);
+}
+
+enum pscn_status pscn_nearest_answer(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
+                                     ptrdiff_t ray_stride, struct pscn_answer *answers, ptrdiff_t answer_stride)
+{
+  static const struct asked asked = {answer_short, write_short, false};
+  struct call call = {
+    .rays = (const char *)rays, .answers = (char *)answers, .ray_stride = ray_stride, .answer_stride = answer_stride};
   return ask(scene, &asked, count, &call);
 }
 

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "geometry/control_points.h"
+#include "geometry/patch.h"
 #include "language/language.h"
 #include "library/library.h"
 
@@ -156,34 +158,52 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
   return PSCN_OK;
 }
 
-/* The control points that a scene is made from. */
+/* The control points that a scene is made from: with strides, or by indices, then `count` patches for each instance. */
 struct points {
   const double *first;
   size_t count;
   ptrdiff_t patch_stride, point_stride;
+  const uint32_t *index; /* or NULL */
+  size_t vertex_count;
+  const double *instances; /* or NULL for one, as the points are */
+  size_t instance_count;
 };
+
+/* Control point k of patch n, all instances being counted. Returns false if it is none. */
+static bool take_point(const struct points *points, size_t n, int k, double out[3])
+{
+  const size_t patch = n % points->count;
+  const char *at = (const char *)points->first;
+  if (!points->index) at += (ptrdiff_t)patch * points->patch_stride + k * points->point_stride;
+  else if (points->index[16 * patch + (size_t)k] < points->vertex_count)
+    at += sizeof(double[3]) * points->index[16 * patch + (size_t)k];
+  else return false;
+  double p[3];
+  memcpy(p, at, sizeof p);
+  const double *M = points->instances ? points->instances + 12 * (n / points->count) : NULL;
+  for (int c = 0; c < 3; c++) out[c] = M ? p[0] * M[c] + p[1] * M[3 + c] + p[2] * M[6 + c] + M[9 + c] : p[c];
+  return number_in_range(&out[0]) & number_in_range(&out[1]) & number_in_range(&out[2]);
+}
 
 static enum pscn_status add_points(struct pscn_scene *scene, const struct points *points, size_t max_memory)
 {
   struct scene *to = scene->scene;
-  if (max_memory > 0 && points->count > max_memory / sizeof *to->patches) {
+  const size_t times = points->instances ? points->instance_count : 1;
+  if (times > 0 && points->count > (max_memory > 0 ? max_memory : SIZE_MAX) / sizeof *to->patches / times) {
     diagnostics_error(&scene->diagnostics, NOWHERE, "%zu patches take more memory than max_memory allows",
                       points->count);
     return PSCN_LIMIT;
   }
   to->textures = arena_alloc(to->arena, 1, sizeof *to->textures);
-  to->patches = arena_alloc(to->arena, points->count, sizeof *to->patches);
+  to->patches = arena_alloc(to->arena, times * points->count, sizeof *to->patches);
   if (!to->textures || !to->patches) return PSCN_LIMIT;
   to->texture_count = 1;
-  to->patch_count = points->count;
-  for (size_t n = 0; n < points->count; n++) {
-    const char *patch = (const char *)points->first + (ptrdiff_t)n * points->patch_stride;
+  to->patch_count = times * points->count;
+  for (size_t n = 0; n < to->patch_count; n++) {
     for (int k = 0; k < 16; k++) {
-      double *p = to->patches[n].P[k / 4][k % 4];
-      memcpy(p, patch + k * points->point_stride, 3 * sizeof *p);
-      if (number_in_range(&p[0]) & number_in_range(&p[1]) & number_in_range(&p[2])) continue;
-      diagnostics_error(&scene->diagnostics, NOWHERE, "patch %zu: control point [%d][%d] is no number up to 1e100", n,
-                        k / 4, k % 4);
+      if (take_point(points, n, k, to->patches[n].P[k / 4][k % 4])) continue;
+      diagnostics_error(&scene->diagnostics, NOWHERE, "patch %zu: control point [%d][%d] is no %s", n, k / 4, k % 4,
+                        points->index ? "vertex, or no number up to 1e100" : "number up to 1e100");
       return PSCN_INPUT;
     }
   }
@@ -257,8 +277,23 @@ enum pscn_status pscn_scene_from_points(const double *points, size_t count, ptrd
                                         ptrdiff_t point_stride, const struct pscn_options *options,
                                         struct pscn_scene **out)
 {
-  const struct points all = {points, count, patch_stride, point_stride};
+  const struct points all = {
+    .first = points, .count = count, .patch_stride = patch_stride, .point_stride = point_stride};
   return create(&(struct origin){points || count == 0 ? "<points>" : NULL, "", 0, &all}, options, out);
+}
+
+enum pscn_status pscn_scene_from_indexed(const double *vertices, size_t vertex_count, const uint32_t *patches,
+                                         size_t count, const double *instances, size_t instance_count,
+                                         const struct pscn_options *options, struct pscn_scene **out)
+{
+  const struct points all = {.first = vertices,
+                             .count = count,
+                             .index = patches,
+                             .vertex_count = vertex_count,
+                             .instances = instances,
+                             .instance_count = instance_count};
+  const bool given = count == 0 || (vertices && patches), placed = instances || instance_count == 0;
+  return create(&(struct origin){given && placed ? "<points>" : NULL, "", 0, &all}, options, out);
 }
 
 void pscn_scene_free(struct pscn_scene *scene)
@@ -301,4 +336,51 @@ void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_camera *out)
     out->right[k] = camera->right[k];
     out->up[k] = camera->up[k];
   }
+}
+
+enum pscn_status pscn_bounds(const struct pscn_scene *scene, size_t number, double out[2][3])
+{
+  const size_t count = pscn_patch_count(scene), first = number == PSCN_ALL_PATCHES ? 0 : number;
+  if (!out) return PSCN_USAGE;
+  memset(out, 0, 2 * sizeof *out);
+  if (first >= count) return PSCN_USAGE;
+  const size_t end = number == PSCN_ALL_PATCHES ? count : first + 1;
+  for (int c = 0; c < 3; c++) out[0][c] = INFINITY, out[1][c] = -INFINITY;
+  for (size_t n = first; n < end; n++) {
+    double lo[3], hi[3];
+    points_range((const double(*)[4][3])scene->scene->patches[n].P, lo, hi);
+    for (int c = 0; c < 3; c++) out[0][c] = fmin(out[0][c], lo[c]), out[1][c] = fmax(out[1][c], hi[c]);
+  }
+  return PSCN_OK;
+}
+
+/* Computed from differences to the first control point, so that a patch far away loses nothing. */
+static void surface_at(double P[4][4][3], double u, double v, struct pscn_surface *out)
+{
+  double x[3][4][4];
+  for (int n = 0; n < 48; n++) x[n % 3][n / 12][n / 3 % 4] = P[n / 12][n / 3 % 4][n % 3] - P[0][0][n % 3];
+  for (int c = 0; c < 3; c++) out->point[c] = P[0][0][c] + patch_evaluate(x[c], u, v).value;
+  points_tangents((const double(*)[4][3])P, u, v, out->du, out->dv);
+  (void)patch_normal(x, u, v, 0, out->normal);
+}
+
+enum pscn_status pscn_surface(const struct pscn_scene *scene, size_t count, const struct pscn_place *places,
+                              ptrdiff_t place_stride, struct pscn_surface *out, ptrdiff_t out_stride)
+{
+  const double none[12] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+  enum pscn_status status = PSCN_OK;
+  if (pscn_scene_status(scene) != PSCN_OK || (count > 0 && (!places || !out))) return PSCN_USAGE;
+  struct calm calm;
+  calm_begin(&calm);
+  for (size_t n = 0; n < count; n++) {
+    struct pscn_place at;
+    struct pscn_surface surface;
+    memcpy(&at, (const char *)places + (ptrdiff_t)n * place_stride, sizeof at);
+    const bool valid = at.patch < scene->scene->patch_count && at.u >= 0 && at.u <= 1 && at.v >= 0 && at.v <= 1;
+    if (valid) surface_at(scene->scene->patches[at.patch].P, at.u, at.v, &surface);
+    else memcpy(&surface, none, sizeof surface), status = PSCN_INPUT;
+    memcpy((char *)out + (ptrdiff_t)n * out_stride, &surface, sizeof surface);
+  }
+  calm_end(&calm);
+  return status;
 }

@@ -1,0 +1,236 @@
+"""Exact intersection of rays with bicubic Bezier patches: libpscn for numpy.
+
+    import numpy as np, pscn
+    scene = pscn.Scene.from_file("teapot.pscn")
+    origins, directions = scene.camera_rays(640, 480)
+    hits = scene.nearest(origins, directions)
+    depth = hits.t * np.linalg.norm(directions, axis=-1)
+
+A scene is made once and never changes. Its calls let go of Python's lock, so threads may share it. Arrays of rays have
+any shape (..., 3), and two of them are broadcast; answers have that shape without the 3. Promises, units and limits are
+those of pscn.h (`man 3 pscn`). PSCN_LIBRARY is the path of libpscn.so where the system does not find it.
+"""
+from __future__ import annotations
+
+import ctypes
+import ctypes.util
+import os
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Scene", "Hits", "Counts", "Surface", "Error", "version"]
+
+# The structures of pscn.h.
+_RAY = np.dtype([("origin", "3f8"), ("direction", "3f8"), ("t_min", "f8"), ("t_max", "f8")])
+_HIT = np.dtype([("t", "f8"), ("u", "f8"), ("v", "f8"), ("point", "3f8"), ("point_error", "f8"), ("clearance", "f8"),
+                 ("normal", "3f8"), ("du", "3f8"), ("dv", "3f8"), ("patch", "u4"), ("verdict", "i4"),
+                 ("certain", "i4"), ("reserved", "i4")])
+_COUNTS = np.dtype([("count", "u8"), ("verdict", "i4"), ("certain", "i4")])
+_PLACE = np.dtype([("u", "f8"), ("v", "f8"), ("patch", "u4"), ("reserved", "u4")])
+_SURFACE = np.dtype([("point", "3f8"), ("du", "3f8"), ("dv", "3f8"), ("normal", "3f8")])
+_OPTIONS = np.dtype([("size", "u8"), ("solver", "u8"), ("tolerance", "f8"), ("max_memory", "u8"), ("folders", "u8"),
+                     ("numbers", "u8"), ("number_count", "u8"), ("image", "2i4"), ("memory", "2u8")])
+_INPUT, _LIMIT, _MISS, _ALL = 3, 5, 0, ctypes.c_size_t(-1).value
+
+
+class Error(ValueError):
+    """What libpscn says is wrong; `status` is pscn.h's."""
+
+    def __init__(self, text: str, status: int):
+        super().__init__(text)
+        self.status = status
+
+
+@dataclass
+class Hits:
+    """Nearest hits, or all hits: where a ray has none, t is infinite, patch is -1 and the rest 0."""
+    t: NDArray[np.float64]
+    u: NDArray[np.float64]
+    v: NDArray[np.float64]
+    patch: NDArray[np.int64]
+    normal: NDArray[np.float64]  #: of unit length, facing the ray's origin
+    point: NDArray[np.float64]
+    hit: NDArray[np.bool_]
+    certain: NDArray[np.bool_]  #: proven
+
+
+@dataclass
+class Counts:
+    """How many hits each ray has, and the first of them along the last axis of `hits`."""
+    count: NDArray[np.int64]
+    certain: NDArray[np.bool_]  #: the count and the order are proven
+    hits: Hits
+
+
+@dataclass
+class Surface:
+    """Points of patches, derivatives and unit normals; a normal is 0 if the patch has none."""
+    point: NDArray[np.float64]
+    du: NDArray[np.float64]
+    dv: NDArray[np.float64]
+    normal: NDArray[np.float64]
+
+
+def _load() -> ctypes.CDLL:
+    path = os.environ.get("PSCN_LIBRARY") or ctypes.util.find_library("pscn")
+    if path is None:
+        raise ImportError("libpscn is not where the system looks; PSCN_LIBRARY may say where it is")
+    library = ctypes.CDLL(path)
+    p, n, stride, text = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_char_p
+    for name, result, arguments in (
+            ("version_text", text, []), ("status_text", text, [ctypes.c_int]), ("scene_messages", text, [p]),
+            ("scene_from_file", None, [text, p, p]), ("scene_from_text", None, [text, text, n, p, p]),
+            ("scene_from_points", None, [p, n, stride, stride, p, p]),
+            ("scene_from_indexed", None, [p, n, p, n, p, n, p, p]), ("scene_free", None, [p]),
+            ("scene_camera", None, [p, p]), ("patch_count", n, [p]), ("patch", None, [p, n, p]),
+            ("bounds", None, [p, n, p]), ("surface", None, [p, n, p, stride, p, stride]),
+            ("nearest", None, [p, n, p, stride, p, stride]), ("occluded", None, [p, n, p, stride, p, stride]),
+            ("all", None, [p, n, p, stride, p, stride, p, stride, n])):
+        function = getattr(library, "pscn_" + name)
+        function.restype, function.argtypes = result or ctypes.c_int, arguments
+    return library
+
+
+_library = _load()
+
+
+def version() -> str:
+    """The version of the library that is running."""
+    return _library.pscn_version_text().decode()
+
+
+def _check(status: int) -> None:
+    if status == _LIMIT:
+        raise MemoryError(_library.pscn_status_text(status).decode())
+    if status != 0:
+        raise Error(_library.pscn_status_text(status).decode(), status)
+
+
+def _array(values: ArrayLike, kind, *last: int) -> np.ndarray:
+    array = np.ascontiguousarray(values, kind)
+    if array.shape[array.ndim - len(last):] != last:
+        raise ValueError(f"an array of shape {array.shape}, where the last axes must be {last}")
+    return array
+
+
+def _hits(found: np.ndarray) -> Hits:
+    hit = found["verdict"] == 1
+    return Hits(t=found["t"], u=found["u"], v=found["v"], patch=np.where(hit, found["patch"].astype(np.int64), -1),
+                normal=found["normal"], point=found["point"], hit=hit, certain=found["certain"] == 1)
+
+
+class Scene:
+    """A scene of patches: of control points nets[..., 4, 4, 3], along u and then along v; or see from_file, from_text
+    and from_indexed. `solver` is what may follow that word in a scene. Errors are raised with their places."""
+
+    def __init__(self, nets: ArrayLike, *, solver: str | None = None):
+        nets = _array(nets, np.float64, 4, 4, 3)
+        self._build("points", solver, nets.ctypes.data, nets.size // 48, 384, 24)
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike, *, solver: str | None = None) -> Scene:
+        """A scene file in the language of pscn(5)."""
+        return cls.__new__(cls)._build("file", solver, os.fsencode(path))
+
+    @classmethod
+    def from_text(cls, text: str, *, name: str = "text", solver: str | None = None) -> Scene:
+        """The text of such a file; `name` stands for it in messages."""
+        data = text.encode()
+        return cls.__new__(cls)._build("text", solver, os.fsencode(name), data, len(data))
+
+    @classmethod
+    def from_indexed(cls, vertices: ArrayLike, patches: ArrayLike, *, instances: ArrayLike | None = None,
+                     solver: str | None = None) -> Scene:
+        """Patches as indices [..., 16] of vertices [n, 3]; all of them once for each matrix of instances [m, 4, 3]."""
+        vertices, patches = _array(vertices, np.float64, 3), _array(patches, np.uint32, 16)
+        placed = _array(np.zeros((0, 4, 3)) if instances is None else instances, np.float64, 4, 3)
+        return cls.__new__(cls)._build("indexed", solver, vertices.ctypes.data, vertices.size // 3, patches.ctypes.data,
+                                       patches.size // 16, placed.ctypes.data if placed.size else None,
+                                       placed.size // 12)
+
+    def _build(self, kind: str, solver: str | None, *arguments) -> Scene:
+        self._handle = ctypes.c_void_p()
+        options, text = np.zeros((), _OPTIONS), ctypes.c_char_p(solver.encode() if solver else None)
+        options["size"], options["solver"] = _OPTIONS.itemsize, ctypes.cast(text, ctypes.c_void_p).value or 0
+        status = getattr(_library, "pscn_scene_from_" + kind)(*arguments, options.ctypes.data,
+                                                              ctypes.byref(self._handle))
+        #: warnings
+        self.messages = _library.pscn_scene_messages(self._handle).decode()
+        if status == _LIMIT:
+            raise MemoryError(self.messages)
+        if status != 0:
+            raise Error(self.messages.rstrip(), status)
+        return self
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            _library.pscn_scene_free(self._handle)
+
+    def __len__(self) -> int:
+        return _library.pscn_patch_count(self._handle)
+
+    def patch(self, number: int) -> NDArray[np.float64]:
+        """The control points [4, 4, 3] of a patch."""
+        net = np.empty((4, 4, 3))
+        _check(_library.pscn_patch(self._handle, number, net.ctypes.data))
+        return net
+
+    def bounds(self, patch: int | None = None) -> NDArray[np.float64]:
+        """The least and the greatest coordinates [2, 3] of the control points of a patch, or of all."""
+        box = np.empty((2, 3))
+        _check(_library.pscn_bounds(self._handle, _ALL if patch is None else patch, box.ctypes.data))
+        return box
+
+    def surface(self, patch: ArrayLike, u: ArrayLike, v: ArrayLike) -> Surface:
+        """Points of patches at parameters in [0,1]."""
+        patch, u, v = np.broadcast_arrays(patch, u, v)
+        places, out = np.zeros(u.shape, _PLACE), np.empty(u.shape, _SURFACE)
+        places["patch"], places["u"], places["v"] = patch, u, v
+        _check(_library.pscn_surface(self._handle, places.size, places.ctypes.data, _PLACE.itemsize, out.ctypes.data,
+                                     _SURFACE.itemsize))
+        return Surface(*(out[name] for name in _SURFACE.names))
+
+    def camera_rays(self, width: int, height: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Origins and directions [height, width, 3] of the rays through the middles of a picture's pixels."""
+        camera = np.empty((4, 3))
+        _library.pscn_scene_camera(self._handle, camera.ctypes.data)
+        s, t = (np.arange(width) + 0.5) / width - 0.5, 0.5 - (np.arange(height) + 0.5) / height
+        directions = camera[1] + s[None, :, None] * camera[2] + t[:, None, None] * camera[3]
+        return np.broadcast_to(camera[0], directions.shape), directions
+
+    @staticmethod
+    def _rays(origins, directions, t_min, t_max) -> np.ndarray:
+        origins, directions = np.broadcast_arrays(np.asarray(origins, float), np.asarray(directions, float))
+        if origins.ndim == 0 or origins.shape[-1] != 3:
+            raise ValueError(f"rays of shape {origins.shape}, where the last axis must be 3")
+        rays = np.empty(origins.shape[:-1], _RAY)
+        rays["origin"], rays["direction"], rays["t_min"], rays["t_max"] = origins, directions, t_min, t_max
+        return rays
+
+    def nearest(self, origins: ArrayLike, directions: ArrayLike, *, t_min: ArrayLike = 0,
+                t_max: ArrayLike = np.inf) -> Hits:
+        """The nearest hit of each ray with t_min < t < t_max."""
+        rays = self._rays(origins, directions, t_min, t_max)
+        found = np.empty(rays.shape, _HIT)
+        _check(_library.pscn_nearest(self._handle, rays.size, rays.ctypes.data, _RAY.itemsize, found.ctypes.data,
+                                     _HIT.itemsize))
+        return _hits(found)
+
+    def occluded(self, origins: ArrayLike, directions: ArrayLike, *, t_min: ArrayLike = 0,
+                 t_max: ArrayLike = np.inf) -> NDArray[np.bool_]:
+        """Whether each ray hits anything: faster."""
+        rays = self._rays(origins, directions, t_min, t_max)
+        verdicts = np.empty(rays.shape, np.uint8)
+        _check(_library.pscn_occluded(self._handle, rays.size, rays.ctypes.data, _RAY.itemsize, verdicts.ctypes.data, 1))
+        return verdicts != _MISS
+
+    def all(self, origins: ArrayLike, directions: ArrayLike, *, most: int = 8, t_min: ArrayLike = 0,
+            t_max: ArrayLike = np.inf) -> Counts:
+        """All hits of each ray: their number, and the first `most` of them in order."""
+        rays = self._rays(origins, directions, t_min, t_max)
+        counts, found = np.empty(rays.shape, _COUNTS), np.empty(rays.shape + (most,), _HIT)
+        _check(_library.pscn_all(self._handle, rays.size, rays.ctypes.data, _RAY.itemsize, counts.ctypes.data,
+                                 _COUNTS.itemsize, found.ctypes.data, most * _HIT.itemsize, most))
+        return Counts(count=counts["count"].astype(np.int64), certain=counts["certain"] == 1, hits=_hits(found))
