@@ -43,17 +43,20 @@ class Error(ValueError):
         self.status = status
 
 
-@dataclass
 class Hits:
     """Nearest hits, or all hits: where a ray has none, t is infinite, patch is -1 and the rest 0."""
-    t: NDArray[np.float64]
-    u: NDArray[np.float64]
-    v: NDArray[np.float64]
-    patch: NDArray[np.int64]
-    normal: NDArray[np.float64]  #: of unit length, facing the ray's origin
-    point: NDArray[np.float64]
-    hit: NDArray[np.bool_]
-    certain: NDArray[np.bool_]  #: proven
+
+    def __init__(self, found: np.ndarray):
+        self._found = found
+
+    t: NDArray[np.float64] = property(lambda self: self._found["t"], doc="in units of the direction's length")
+    u: NDArray[np.float64] = property(lambda self: self._found["u"])
+    v: NDArray[np.float64] = property(lambda self: self._found["v"])
+    point: NDArray[np.float64] = property(lambda self: self._found["point"])
+    normal: NDArray[np.float64] = property(lambda self: self._found["normal"], doc="of unit length, facing the origin")
+    patch: NDArray[np.int32] = property(lambda self: self._found["patch"].view(np.int32))
+    hit: NDArray[np.bool_] = property(lambda self: self._found["verdict"] == 1)
+    certain: NDArray[np.bool_] = property(lambda self: self._found["certain"] == 1, doc="proven")
 
 
 @dataclass
@@ -115,10 +118,23 @@ def _array(values: ArrayLike, kind, *last: int) -> np.ndarray:
     return array
 
 
-def _hits(found: np.ndarray) -> Hits:
-    hit = found["verdict"] == 1
-    return Hits(t=found["t"], u=found["u"], v=found["v"], patch=np.where(hit, found["patch"].astype(np.int64), -1),
-                normal=found["normal"], point=found["point"], hit=hit, certain=found["certain"] == 1)
+_BLOCK = 1 << 13
+
+
+def _shape(origins, directions, t_min, t_max) -> tuple[int, ...]:
+    shapes = np.shape(origins), np.shape(directions)
+    if any(shape[-1:] != (3,) for shape in shapes):
+        raise ValueError(f"rays of shapes {shapes[0]} and {shapes[1]}, where the last axis must be 3")
+    return np.broadcast_shapes(shapes[0][:-1], shapes[1][:-1], np.shape(t_min), np.shape(t_max))
+
+
+def _flat(values, shape: tuple[int, ...], last: tuple[int, ...]) -> np.ndarray:
+    """One value a ray, one after the other; a single one if it is the same for all."""
+    array = np.asarray(values, np.float64)
+    axes = array.ndim - len(last)
+    if array.size > 0 and not any(array.strides[k] and array.shape[k] > 1 for k in range(axes)):
+        return array[(0,) * axes].reshape((1,) + last)
+    return np.broadcast_to(array, shape + last).reshape((-1,) + last)
 
 
 class Scene:
@@ -200,37 +216,39 @@ class Scene:
         directions = camera[1] + s[None, :, None] * camera[2] + t[:, None, None] * camera[3]
         return np.broadcast_to(camera[0], directions.shape), directions
 
-    @staticmethod
-    def _rays(origins, directions, t_min, t_max) -> np.ndarray:
-        origins, directions = np.broadcast_arrays(np.asarray(origins, float), np.asarray(directions, float))
-        if origins.ndim == 0 or origins.shape[-1] != 3:
-            raise ValueError(f"rays of shape {origins.shape}, where the last axis must be 3")
-        rays = np.empty(origins.shape[:-1], _RAY)
-        rays["origin"], rays["direction"], rays["t_min"], rays["t_max"] = origins, directions, t_min, t_max
-        return rays
+    def _ask(self, function, rays: tuple, out: np.ndarray, *more) -> None:
+        """Calls function for the rays, some thousands at a time so that their copies stay in the processor's cache.
+        `more` are pairs of a further output's address and its bytes a ray, and numbers."""
+        shape = out.shape
+        flat = [_flat(values, shape, last) for values, last in zip(rays, ((3,), (3,), (), ()))]
+        block = np.empty(min(out.size, _BLOCK), _RAY)
+        for first in range(0, out.size, _BLOCK):
+            count = min(_BLOCK, out.size - first)
+            for name, values in zip(_RAY.names, flat):
+                block[name][:count] = values if len(values) == 1 else values[first:first + count]
+            rest = [x for address, stride in more[:1] for x in (address + first * stride, stride)]
+            _check(function(self._handle, count, block.ctypes.data, _RAY.itemsize,
+                            out.ctypes.data + first * out.itemsize, out.itemsize, *rest, *more[1:]))
 
     def nearest(self, origins: ArrayLike, directions: ArrayLike, *, t_min: ArrayLike = 0,
                 t_max: ArrayLike = np.inf) -> Hits:
         """The nearest hit of each ray with t_min < t < t_max."""
-        rays = self._rays(origins, directions, t_min, t_max)
-        found = np.empty(rays.shape, _HIT)
-        _check(_library.pscn_nearest(self._handle, rays.size, rays.ctypes.data, _RAY.itemsize, found.ctypes.data,
-                                     _HIT.itemsize))
-        return _hits(found)
+        found = np.empty(_shape(origins, directions, t_min, t_max), _HIT)
+        self._ask(_library.pscn_nearest, (origins, directions, t_min, t_max), found)
+        return Hits(found)
 
     def occluded(self, origins: ArrayLike, directions: ArrayLike, *, t_min: ArrayLike = 0,
                  t_max: ArrayLike = np.inf) -> NDArray[np.bool_]:
         """Whether each ray hits anything: faster."""
-        rays = self._rays(origins, directions, t_min, t_max)
-        verdicts = np.empty(rays.shape, np.uint8)
-        _check(_library.pscn_occluded(self._handle, rays.size, rays.ctypes.data, _RAY.itemsize, verdicts.ctypes.data, 1))
+        verdicts = np.empty(_shape(origins, directions, t_min, t_max), np.uint8)
+        self._ask(_library.pscn_occluded, (origins, directions, t_min, t_max), verdicts)
         return verdicts != _MISS
 
     def all(self, origins: ArrayLike, directions: ArrayLike, *, most: int = 8, t_min: ArrayLike = 0,
             t_max: ArrayLike = np.inf) -> Counts:
         """All hits of each ray: their number, and the first `most` of them in order."""
-        rays = self._rays(origins, directions, t_min, t_max)
-        counts, found = np.empty(rays.shape, _COUNTS), np.empty(rays.shape + (most,), _HIT)
-        _check(_library.pscn_all(self._handle, rays.size, rays.ctypes.data, _RAY.itemsize, counts.ctypes.data,
-                                 _COUNTS.itemsize, found.ctypes.data, most * _HIT.itemsize, most))
-        return Counts(count=counts["count"].astype(np.int64), certain=counts["certain"] == 1, hits=_hits(found))
+        counts = np.empty(_shape(origins, directions, t_min, t_max), _COUNTS)
+        found = np.empty(counts.shape + (most,), _HIT)
+        self._ask(_library.pscn_all, (origins, directions, t_min, t_max), counts,
+                  (found.ctypes.data, most * _HIT.itemsize), most)
+        return Counts(count=counts["count"].astype(np.int64), certain=counts["certain"] == 1, hits=Hits(found))
