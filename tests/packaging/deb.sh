@@ -27,6 +27,11 @@ loaded=$(grep -ho 'calling init: .*pscn_openimageio.so' libs.*)
 "$PSCN" render bent.pscn --size 40x30 -q -o built.exr
 "$PSCN" compare bent.exr built.exr --fail 0 -q
 
+# The Python module is a package of its own.
+[[ $(dpkg-deb -f python3-pscn_*_all.deb Depends) == *"python3-numpy, pscn"* ]]
+dpkg-deb -c python3-pscn_*_all.deb | grep -q ' ./usr/lib/python3/dist-packages/pscn.py$'
+! dpkg-deb -c pscn_*.deb | grep -q 'pscn\.py$' || { echo "the module is in both packages"; exit 1; }
+
 # Nothing is outside /usr, nothing is writable for others.
 [ -z "$(find root -mindepth 1 -maxdepth 1 ! -name usr)" ]
 [ -z "$(find root -perm /022 ! -type l)" ]
