@@ -132,10 +132,10 @@ enum status tracer_all(struct tracer *tracer, size_t count, const struct ray ray
  * the ray's start, even where surfaces meet at an acute angle; a point beside the hit need not be.
  *
  * Proven for a certain hit. The exact point is before the exact hit, at a t that is one of doubles. Each coordinate of
- * *out_origin is that of the point rounded, and one double nearer to the ray's start: off it by e <= 2^-52 of itself,
- * while the clearance is at least 256 e. So *out_origin is in the same cell unless another surface comes within sqrt(3)
+ * *out_origin is that of the point rounded, and one or two doubles nearer to the ray's start: off it by e <= 2^-51 of itself,
+ * while the clearance is at least 128 e. So *out_origin is in the same cell unless another surface comes within sqrt(3)
  * e of that point, which no plane across an axis does that the ray meets later, nor any other if the ray meets it at or
- * behind the hit under an angle whose sine is 1/100 of the hit's or more. Next to a border of the patch, where such a
+ * behind the hit under an angle whose sine is 1/64 of the hit's or more. Next to a border of the patch, where such a
  * surface may be expected, the view from *out_origin back to the ray's start is traced, and a start farther back is
  * taken until nothing is in it. That proves that the cell is the same, but for what is within e of the ray's start.
  *

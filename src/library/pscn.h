@@ -296,8 +296,8 @@ PSCN_API enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count,
  * one: a point of `ray` itself, before the hit, from which the surface is `clearance` away; or where `ray` starts, if
  * that is nearer. Of a certain hit nothing lies between the ray's start and this point. So where surfaces close a space
  * in, a ray from this point is in the same space as the ray's start, even in an acute crease. (Proven up to the
- * rounding of the point, by 2^-52 of its coordinates. Another surface may lie within that only if the ray runs along it
- * at an angle with 1/100 of the sine of the angle at the hit, or less. Next to a border of the patch even that is
+ * rounding of the point, by 2^-51 of its coordinates. Another surface may lie within that only if the ray runs along it
+ * at an angle with 1/64 of the sine of the angle at the hit, or less. Next to a border of the patch even that is
  * excluded, by tracing a ray back from the point. Light that lies within the clearance before a surface may be missed.)
  *
  * If `direction` points to the other side, the point lies as far behind the hit, and nothing is proven: what is nearer
