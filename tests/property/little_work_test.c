@@ -110,7 +110,7 @@ static void of_twins_none_is_looked_at(void **state)
 /* ---- points ---- */
 
 /* A patch of equal points is one leaf, however finely it is to be cut: a ray that passes it, as nearly as boxes can
- * tell, meets what is behind. */
+ * tell, meets what is behind, and has a small budget. */
 static void a_point_takes_little(void **state)
 {
   (void)state;
@@ -122,6 +122,7 @@ static void a_point_takes_little(void **state)
   sheet(0, nets[1]);
   for (int k = 0; k < 16; k++) memcpy(nets[0][k / 4][k % 4], (const double[3]){0.1, 0.3, -1}, sizeof nets[0][0][0]);
   world_open(&world, nets, 2, &fine);
+  world.tracer->budget = 1000;
   const struct ray ray = {.origin = {0.1, 0.3, -4}, .direction = {0, 1e-17, 1}, .t_max = INFINITY};
   const struct hit hit = world_closest(&world, &ray);
   assert_int_equal(hit.patch, 1);
