@@ -103,7 +103,7 @@ static void pscn_error(struct language *language, const char *message)
 
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
 %precedence ITEM
-%precedence <place> ',' '{'
+%precedence <place> ',' ';' '{'
 %precedence RED GREEN BLUE FILTER
 %right '?' ':'
 %left '&' '|'
@@ -114,7 +114,7 @@ static void pscn_error(struct language *language, const char *message)
 %precedence <place> '!'
 %precedence '.'
 
-%token <place> ';' '}' '(' ')' '[' ']'
+%token <place> '}' '(' ')' '[' ']'
 
 %%
 
@@ -178,7 +178,8 @@ default_item:
   | foreign
   | error                                      { RECOVER(); }
   ;
-declared_value: declare shade ';'              { declare_value(language, $1, $2); };
+declared_value: declare shade ';'              { declare_value(language, $1, $2); }
+  | declare shade %prec ITEM                   { declare_open(language, $1, $2); };
 layers: %empty | layers TEXTURE { layer_begin(language, $2); } '{' texture_items '}' { layer_end(language, $6); };
 /* What can be declared besides a value. */
 solid:

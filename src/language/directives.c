@@ -226,8 +226,9 @@ static void pass_case(struct language *language, int directive)
     return;
   }
   while (is_open(language, condition)) {
-    if (condition->rounds > 0 ? (is_chosen(language, directive, 0), true)
-                              : is_chosen(language, directive, condition->chosen)) {
+    const bool chosen = is_chosen(language, directive, condition->chosen);
+    if (!is_open(language, condition)) return;
+    if (condition->rounds > 0 || chosen) {
       condition->rounds = 1;
       return;
     }

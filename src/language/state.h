@@ -51,6 +51,7 @@ struct declaration {
   struct value *to;
   const struct frame *frame; /* where its = stands, with that many braces open */
   int braces;
+  bool begun; /* something of its value has been read */
   struct span name;
   int depth;         /* of its symbol */
   struct span lacks; /* the first word in it that pscn lacks, or none */

@@ -346,6 +346,16 @@ void declare_value(struct language *language, struct declaration *declaration, c
   declare_end(language, declaration);
 }
 
+void declare_open(struct language *language, struct declaration *declaration, const struct value *value)
+{
+  const struct name name = sources_name(language, language->tokens->last.place);
+  if (value->kind <= VALUE_COLOUR && !language_ended(language))
+    language_tell(language, name.place,
+                  name.length ? "unexpected '%.*s', expected ';'" : "the text ends here%.*s, expected ';'",
+                  (int)name.length, name.text);
+  declare_value(language, declaration, value);
+}
+
 void declare_broken(struct language *language, struct declaration *declaration)
 {
   declare_value(language, declaration, &(struct value){.kind = VALUE_UNKNOWN});

@@ -107,6 +107,8 @@ struct declaration *declare_begin(struct language *language, struct value *targe
 void declare_again(struct language *language, struct value *value);
 /* Ends it: the name has that value. */
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value);
+/* The same where the ; is missing, without which POV-Ray reads strings, arrays, textures and objects only. */
+void declare_open(struct language *language, struct declaration *declaration, const struct value *value);
 void declare_broken(struct language *language, struct declaration *declaration); /* after an error */
 /* A #local of the file or macro being read, or a #declare, of a value that is no text's. */
 struct value *declare_local(struct language *language, const struct name *name);

@@ -88,16 +88,21 @@ static int begin(struct tokens *tokens)
   return token == PSCN_TOKEN_SOLVER ? solver_token(tokens, token) : token;
 }
 
-/* Whether a directive that is read by itself is complete, and this token is behind it. */
+/* Whether a directive that is read by itself is complete, and this token is behind it. A value of which the ; is missing
+ * ends before what cannot belong to it. */
 static bool is_behind(const struct language *language, int token)
 {
-  const struct own *own = language->tokens->own;
-  if (!own) return false;
-  if (own->token == PSCN_TOKEN_VERSION)
-    return words_begin_item(token) || words_are_foreign(token) || token == '}' || token == ',';
-  if (own->token == PSCN_TOKEN_DEFAULT) return false;
-  return language->declaration == own->outer && language->declared > own->declared && token != ';' &&
-         !(language->layered && token == PSCN_TOKEN_TEXTURE);
+  const struct tokens *tokens = language->tokens;
+  const struct own *own = tokens->own;
+  const struct declaration *declaration = language->declaration;
+  if (!own || own->token == PSCN_TOKEN_DEFAULT) return false;
+  const bool ends = words_begin_item(token) || words_are_foreign(token) || token == '}';
+  if (own->token == PSCN_TOKEN_VERSION) return ends || token == ',';
+  if (declaration == own->outer)
+    return language->declared > own->declared && token != ';' && !(language->layered && token == PSCN_TOKEN_TEXTURE);
+  return ends && declaration && declaration->outer == own->outer && declaration->begun &&
+         tokens->depth == declaration->braces + (token == '{') - (token == '}') &&
+         language->sources->frame == declaration->frame;
 }
 
 /* Makes the scanner's token the last one. Returns it as it counts. */
@@ -177,6 +182,7 @@ int tokens_next(struct language *language)
       last->again = true;
       return 0;
     }
+    if (language->declaration && token != '=') language->declaration->begun = true;
     if (!is_directive(language)) return token;
     read_directive(language);
   }
@@ -279,7 +285,8 @@ static bool skip(struct language *language, bool wrong)
     /* A token that was refused here may begin the next item; one refused there too is dropped. */
     if (last->depth == block && !(first && (twice || !wrong))) {
       const bool in_value = before == '+' || before == '-' || before == '*' || before == '/' || before == ',';
-      const bool foreign = words_are_foreign(token) && !first && !in_value;
+      const bool of_pattern = span_end(last->place) - span_begin(last->place) == 1; /* the u of gradient u */
+      const bool foreign = words_are_foreign(token) && !of_pattern && !first && !in_value;
       if (begins_next(token, block) || foreign) {
         tokens->last.again = true;
         return true;
