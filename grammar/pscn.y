@@ -77,6 +77,7 @@ static void pscn_error(struct language *language, const char *message)
 %token <place> SKY "sky" ANGLE "angle" LOOK_AT "look_at"
 %token <place> LIGHT_SOURCE "light_source" SHADOWLESS "shadowless" BACKGROUND "background"
 %token <place> BICUBIC_PATCH "bicubic_patch" TYPE "type" FLATNESS "flatness" U_STEPS "u_steps" V_STEPS "v_steps"
+%token <place> UV_VECTORS "uv_vectors"
 %token <place> UNION "union" OBJECT "object" TRANSLATE "translate" ROTATE "rotate" SCALE "scale" MATRIX "matrix"
 %token <place> TEXTURE "texture" PIGMENT "pigment" FINISH "finish"
 %token <place> AMBIENT "ambient" DIFFUSE "diffuse" BRILLIANCE "brilliance" PHONG "phong" PHONG_SIZE "phong_size"
@@ -368,6 +369,7 @@ patch_item:
   | FLATNESS value                            { patch_number(language, PATCH_FLATNESS, $1, $2); }
   | U_STEPS value                             { patch_number(language, PATCH_U_STEPS, $1, $2); }
   | V_STEPS value                             { patch_number(language, PATCH_V_STEPS, $1, $2); }
+  | UV_VECTORS                                 { language_lacks_word(language, $1); tokens_pass_vectors(language, 4); }
   | ','                                        { patch_comma(language, $1); }
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
