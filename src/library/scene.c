@@ -225,6 +225,8 @@ static enum pscn_status build(struct pscn_scene *scene, const struct origin *ori
   enum pscn_status status = language_options(scene, &options, &settings);
   if (status != PSCN_OK) return status;
   struct diagnostics *diagnostics = &scene->diagnostics;
+  if (origin->points)
+    settings.max_memory = 0; /* add_points counts; what reading an empty text takes is not asked for */
   status = (enum pscn_status)(
     origin->text ? language_load_text(origin->name, origin->text, origin->length, &settings, diagnostics, &scene->scene)
                  : language_load(origin->name, &settings, diagnostics, &scene->scene));

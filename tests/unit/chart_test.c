@@ -247,7 +247,8 @@ TEST(test_shadow_rays)
   struct ray rays[PACKETS];
   struct ray_packet packets[PACKETS] = {{0, 1, true}, {1, 1, false}, {2, 1, false}, {3, 1, true}, {4, 1, false}};
   const struct ray_list camera = {.rays = rays, .packets = packets, .count = PACKETS, .packet_count = PACKETS};
-  const struct hit hit = {.patch = 0, .u = 0.5, .v = 0.5, .normal = {0, 0, 1}}, miss = {.patch = HIT_NONE};
+  const struct hit hit = {.patch = 0, .certainty = CERTAINTY_GRAZING, .u = 0.5, .v = 0.5, .normal = {0, 0, 1}},
+                   miss = {.patch = HIT_NONE};
   const struct hit hits[PACKETS] = {miss, hit, hit, miss, hit};
   const bool begins[HITS] = {true, false, true};
   for (int k = 0; k < PACKETS; k++) rays[k] = (struct ray){.direction = {0, 0, -1}, .t_max = 1};
