@@ -9,9 +9,6 @@
 #include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 
-/* The most halvings of the leaf to show that the ray passes it by, before any root is sought. A choice of speed. */
-enum { MISS_HALVINGS = 3 };
-
 /* The roots tried: the k-th of every lane. */
 struct all_roots {
   int count;
@@ -142,20 +139,13 @@ lanes method_quadratic_root(struct packet *p, const struct candidate *it, const 
   return 0.5 * lanes_select(second, a.zr[1], a.zr[0]);
 }
 
-/* Finds roots by a method for lanes. Returns the lanes of `active` that are missed. */
-static lane_mask all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct root_starts *out)
+/* Finds roots by a method for lanes. */
+static void all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct root_starts *out)
 {
   struct roots_lanes a;
-  if (it->degree < 1) return (lane_mask){0};
-  /* One sign variation means a root, which is mostly a hit. */
-  const lane_mask doubtful = active & (it->variations != 1);
-  lane_mask missed = {0};
-  if (lanes_any(doubtful)) missed = cover_proves(p, it, 0, NULL, MISS_HALVINGS, doubtful, NULL);
-  if (!lanes_any(active & ~missed)) return missed;
+  if (it->degree < 1) return;
   const lane_mask able = roots_lanes_set(&a, it->degree, it->c);
-  const lane_mask done = all_roots_solve(p, it, active & ~missed & able, it->variations, &a);
-  all_roots_near(it, &a, done, out);
-  return missed;
+  all_roots_near(it, &a, all_roots_solve(p, it, active & able, it->variations, &a), out);
 }
 
 static void all_roots_offer(struct packet *p, const struct candidate *it, const struct all_roots *all, lane_mask where)
@@ -168,10 +158,9 @@ lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask acti
 {
   struct root_starts starts = {0};
   struct all_roots all;
-  lane_mask decided = {0};
-  if (it->patch->lanes != SOLVER_LANES_NONE) decided = all_roots_find(p, it, active, &starts);
+  if (it->patch->lanes != SOLVER_LANES_NONE) all_roots_find(p, it, active, &starts);
   else method_starts(p, it, active, &starts);
-  decided |= all_roots_prove(p, it, &starts, &all);
+  const lane_mask decided = all_roots_prove(p, it, &starts, &all);
   all_roots_offer(p, it, &all, p->any ? active : decided);
   const lane_mask open = active & ~decided & p->live;
   if (!lanes_any(open)) return open;

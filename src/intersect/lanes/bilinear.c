@@ -1,8 +1,7 @@
-/* The root that is tried first on a candidate, from the bilinear part of its leaf, and what boxes prove of it.
+/* The root that is tried first on a candidate, from the bilinear part of its leaf.
  *
  * Compiled once per instruction set, without contraction. Parameters are s = u - 1/2 and t = v - 1/2.
  */
-#include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 
 LANES_INLINE lanes plane_of(const struct line *line, int axis, int number, const double base[4][3], int n)
@@ -76,19 +75,4 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask activ
   if (it->patch->lanes == SOLVER_LANES_SIGNS) p->tracer->counts.roots_found += lanes_count(root->at.alone);
   offer_root(p, it, root, (p->any ? root->at.exists : root->at.alone) & inside(&root->at));
   return active & ~root->at.alone & p->live;
-}
-
-lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
-{
-  const struct newton_root *r = &it->first.at;
-  const struct known_root known = {r, open & r->exists};
-  lanes left[2] = {{0}, {0}};
-  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_EARLY, open, left);
-  offer_root(p, it, &it->first, (p->any ? known.proven : covered & known.proven) & inside(r));
-  open &= ~covered & p->live;
-  if (!lanes_any(open)) return open;
-  struct leaf_root second;
-  newton_solve(p, it->leaf, it->axis, left, open, &second);
-  const lane_mask more = second.at.exists;
-  return lanes_any(more) ? open & ~cover_two(p, it, &it->first, &second, more) & p->live : open;
 }

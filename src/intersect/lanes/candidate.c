@@ -56,7 +56,7 @@ static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask
 static void leave_open(struct packet *p, struct candidate *it, lane_mask open)
 {
   open &= ~leaves_beside(p, it->leaf->patch, open);
-  if (lanes_any(open)) open &= ~leaves_corner(p, it, open);
+  if (lanes_any(open)) open &= ~leaves_vertex(p, it, open);
   if (lanes_any(open)) packet_postpone(p, it, open);
 }
 
@@ -68,7 +68,6 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   uint64_t *entered = p->tracer->counts.stages;
   open = stage_slab(p, it, open);
   packet_charge(p, open & COST_TRIED);
-  if (it->leaf->pole && patch->method->polish) open = stage_pole(p, it, open);
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
   if (starts_bilinear(it)) {
@@ -82,14 +81,9 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   }
   packet_charge(p, open & COST_PLANES);
   entered[STAGE_PLANES] += lanes_count(open);
-  open = stage_planes(p, it, open);
-  if (lanes_any(open & it->along)) /* no later stage could decide that */
-    leave_open(p, it, open & it->along), open &= ~it->along;
+  planes_set(it);
+  if (patch->method->polish) open = stage_cover(p, it, open);
   if (!lanes_any(open)) return;
-  if (patch->lanes == SOLVER_LANES_SIGNS) {
-    open = stage_cover(p, it, open);
-    if (!lanes_any(open)) return;
-  }
   packet_charge(p, open & COST_RESULTANT);
   entered[STAGE_RESULTANT] += lanes_count(open);
   open = stage_resultant(it, open);

@@ -22,15 +22,14 @@ struct candidate {
   const struct line *line; /* the packet's, for that axis */
   /* stage_bilinear: */
   struct leaf_root first; /* the first root found; meaningful only where it exists */
-  /* stage_planes: */
+  /* planes_set: */
   lanes a[16], b[16]; /* nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
-  lane_mask along;    /* in double precision, the ray seems to meet a curve on the leaf, or a tip */
-  lanes alpha, beta;  /* largest |a|, |b|, of the nets at first, then of the form */
   /* stage_resultant: */
   lanes form_error;             /* of a coefficient of the form */
   lanes form_a[16], form_b[16]; /* used if the form is not the leaf's own net */
   const lanes *fa, *fb;
-  int degree; /* of r, without its exact roots at the ends */
+  lanes alpha, beta; /* the largest of either */
+  int degree;        /* of r, without its exact roots at the ends */
   lanes c_store[RESULTANT_MAX_DEGREE + 1];
   const lanes *c;   /* c[0..degree] */
   lanes variations; /* upper bound on the sign variations of c; -1: not counted */
@@ -43,14 +42,10 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
 /* planes.c: a lower bound on the t at which the ray enters the box along the leaf. */
 lanes slab_begin(const struct packet *p, const struct candidate *it);
 
-/* planes.c, for a leaf with a pole: closes lanes whose ray passes near the pole and is proven to miss the leaf, or
- * starts exactly in the pole and meets no other point of the leaf. They would go through several stages, or all, in
- * vain. */
-lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open);
-
-/* planes.c: returns the lanes of `open` whose ray starts exactly in a corner of the patch and meets no other point of
- * the leaf. At a corner whose handles have no length no Jacobian is regular. Sets the polynomials. */
-lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask open);
+/* planes.c: returns the lanes of `open` whose ray starts exactly in a vertex of the patch, a corner or a pole, and meets
+ * no other point of the leaf. At a pole, or a corner whose handles have no length, no Jacobian is regular. Sets the
+ * polynomials. */
+lane_mask leaves_vertex(const struct packet *p, struct candidate *it, lane_mask open);
 
 /* bilinear.c: finds the root of the leaf's bilinear part by a resultant of degree 2, and refines it by Newton's method
  * on the leaf. A lane stays open if the ray is so slanted that the root is not proven to be the only one. */
@@ -60,13 +55,12 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open)
  * stage_bilinear. The default method also seeks one more root, and closes lanes where these two are all. */
 lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open);
 
-/* planes.c: sets the plane polynomials a and b. Closes lanes where one of them, or a combination of them, keeps one
- * sign on its whole net. Sets `along` where they are one polynomial, or where the ray meets the leaf's pole within its
- * range: no later stage can decide that. */
-lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask open);
+/* planes.c: sets the plane polynomials a and b. */
+void planes_set(struct candidate *it);
 
-/* bilinear.c, default method: closes lanes where boxes show that the leaf has no root besides that of stage_bilinear.
- * Where they do not, one more root is sought, and the boxes are examined with both. */
+/* cover.c: closes lanes where pieces that cover the leaf show that it has no root, by the default method also none
+ * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces with
+ * both. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: sets the form and, with polish, Bezout's resultant r of a and b in Bernstein form. Closes lanes where
@@ -129,16 +123,6 @@ LANES_INLINE void plane_values(const struct line *line, int axis, const double x
   const double k = x[axis][at], i = x[(axis + 1) % 3][at], j = x[(axis + 2) % 3][at];
   *a = (i - line->moment[0]) - line->slope[0] * k;
   *b = (j - line->moment[1]) - line->slope[1] * k;
-}
-
-/* Lanes whose ray starts exactly in the corner (u,v) of the patch, with u and v 0 or 1; none if the corner is not the
- * leaf's. */
-LANES_INLINE lane_mask starts_at_corner(const struct packet *p, const struct candidate *it, int u, int v)
-{
-  const struct leaf *leaf = it->leaf;
-  const bool has = leaf->column_u == u * (it->patch->cut.split[0] - 1) &&
-                   leaf->column_v == v * (it->patch->cut.split[1] - 1);
-  return has ? packet_starts_at(p, leaf->patch, 12 * u + 3 * v) : (lane_mask){0};
 }
 
 /* planes.c: x_k of the points (u,v). */

@@ -1,10 +1,7 @@
-/* Whether the known roots are all that a leaf has, by boxes that cover it, for one ray after the other: few need it.
+/* Whether the known roots are all that a leaf has, by pieces that cover it (piece.h), for one ray after the other: few
+ * need it. A piece is done with if it has no root, or no other one than a proven one in it. Other pieces are halved.
  *
- * Internal to src/intersect/lanes. A box of parameters is cleared if a plane polynomial, or one of the combinations
- * that aim along u and v, keeps one sign on its net (planes.c tests the leaf's so); if a proven root is in the box and
- * is alone by the differences of those nets; or if no root in it would be between the ends of the ray. Other boxes are
- * halved. At the leaf's pole, where no such combination keeps one sign and no Jacobian is regular, the distance from the
- * pole is divided out. exact/search.c does the same in the last resort; this ends most cases before.
+ * Internal to src/intersect/lanes.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_H
 #define PSCN_INTERSECT_LANES_COVER_H
@@ -22,12 +19,12 @@ struct known_root {
 };
 
 /* The lanes of `open` on which all of the leaf's roots between the ends of the ray are among `roots`. On the others
- * `left`, if not NULL, gets the middle, in s and t, of a box that was not cleared, where one more root may be. */
+ * `left`, if not NULL, gets the middle, in s and t, of a piece that is not done with, where one more root may be. */
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2]);
 
 /* Offers the two roots, as far as they are proven and distinct, on the lanes of `open` where they are all, and returns
- * these. Lanes where neither is proven are not tried: there the ray nearly touches the leaf, and boxes would do one
+ * these. Lanes where neither is proven are not tried: there the ray nearly touches the leaf, and pieces would do one
  * time in ten. */
 lane_mask cover_two(struct packet *p, const struct candidate *it, const struct leaf_root *first,
                     const struct leaf_root *second, lane_mask open);

@@ -178,18 +178,6 @@ static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
   return plane ? packet_starts_in(p, plane) : (lane_mask){0};
 }
 
-/* Lanes whose ray starts exactly in a corner of the patch, and whose root is that corner: there is no other root within
- * its radii, and the start does not belong to the ray. */
-static lane_mask starts_in_corner(const struct packet *p, const struct candidate *it, const struct newton_root *r)
-{
-  lane_mask in = {0};
-  for (int corner = 0; corner < 4; corner++) {
-    const int u = corner / 2, v = corner % 2;
-    in |= starts_at_corner(p, it, u, v) & (lanes_abs(r->u - u) <= r->radius_u) & (lanes_abs(r->v - v) <= r->radius_v);
-  }
-  return in;
-}
-
 /* Proven roots of several lanes, at x_k = w and t = `at`, become the best where they come before it. Where all hits are
  * gathered there was no best, and the caller removes it again. A root that may lie on a border of the patch, at an end
  * of the ray, or where another root is, is left to the last resort. Returns the lanes that took theirs. */
@@ -212,7 +200,7 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   if (lanes_any(hits & ~sure)) {
     const lane_mask start = hits & within & ~sure & starts_in_plane(p, it->leaf->patch);
     p->best.touches |= start & (p->t_min <= 0);
-    packet_postpone(p, it, hits & ~sure & ~start & ~starts_in_corner(p, it, r));
+    packet_postpone(p, it, hits & ~sure & ~start);
   }
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);

@@ -15,18 +15,16 @@ enum { RESULTANT_NEWTON_STEPS = 3 };
 static void set_form(struct candidate *it)
 {
   const struct leaf_form *form = it->leaf->form;
-  it->fa = it->a, it->fb = it->b, it->form_error = it->line->error;
-  if (!form) return;
+  it->fa = form ? it->form_a : it->a, it->fb = form ? it->form_b : it->b, it->form_error = it->line->error;
   it->alpha = it->beta = lanes_all(0);
   for (int i = 0; i <= it->leaf->kept_degree; i++) {
     for (int j = 0; j <= it->leaf->eliminated_degree; j++) {
-      lanes a, b;
-      plane_values(it->line, it->axis, form->x, 4 * i + j, &a, &b);
-      it->form_a[4 * i + j] = a, it->form_b[4 * i + j] = b;
-      it->alpha = lanes_max(it->alpha, lanes_abs(a)), it->beta = lanes_max(it->beta, lanes_abs(b));
+      const int n = 4 * i + j;
+      if (form) plane_values(it->line, it->axis, form->x, n, &it->form_a[n], &it->form_b[n]);
+      it->alpha = lanes_max(it->alpha, lanes_abs(it->fa[n])), it->beta = lanes_max(it->beta, lanes_abs(it->fb[n]));
     }
   }
-  it->fa = it->form_a, it->fb = it->form_b;
+  if (!form) return;
   /* Where the ray meets the leaf, the form's polynomials are off by their excess, twice that for a plane of slope 1. If
    * each is moved by a constant, which moves all its coefficients alike, they have their common root there. So the
    * excess counts as an error of coefficients. */
