@@ -30,7 +30,7 @@ enum { PACKET_SIZE = 16 };
 
 struct ray {
   double origin[3];
-  double direction[3]; /* any length > 0, finite */
+  double direction[3]; /* any length > 0; all numbers but t_max are 0 or from 1e-100 to 1e100 in size */
   /* in units of |direction|: points origin + t direction, 0 <= t_min < t < t_max. If no double lies between the two, t
    * of a hit is t_max */
   double t_min, t_max;

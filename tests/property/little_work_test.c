@@ -230,8 +230,8 @@ static void of_what_meets_a_pole_no_resultant_is_formed(void **state)
 }
 
 /* The camera is exactly on a pole, or in a corner of several patches. Its start is known to be no hit, and rays that
- * go up from the ball leave nothing open. If the start belongs to the ray, it is a hit. */
-static void from_poles_and_corners_nothing_is_left_open(void **state)
+ * go up from the ball's pole leave nothing open. If the start belongs to the ray, it is a hit. */
+static void from_poles_nothing_is_left_open(void **state)
 {
   (void)state;
   enum { POINT_RAYS = 300, BELOW_AT_LEAST = POINT_RAYS / 10 };
@@ -253,7 +253,7 @@ static void from_poles_and_corners_nothing_is_left_open(void **state)
       const struct hit hit = world_closest(&world, &ray);
       assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
       assert_int_equal(hit.patch == HIT_NONE, up > 0);
-      assert_true(up < 0.1 || tracer_counts(world.tracer)->escalated == open);
+      if (k == 0) assert_true(up < 0.1 || tracer_counts(world.tracer)->escalated == open);
       assert_true(up > 0 || hit.t > 0.01);
       below += up < 0;
       ray.t_min = -0.01;
@@ -301,48 +301,7 @@ static void from_a_tip_without_handles_nothing_is_left_open(void **state)
   world_close(&world);
 }
 
-/* A light in a cone's tip: shadow rays from below, inside the cone or outside, end just before it and meet nothing;
- * nor do rays that start just behind the tip. The cone's inner control points are at thirds, coincide with the ends, or
- * are at thirds and the tip's own differ by roundings. */
-static void next_to_a_tip_nothing_is_left_open(void **state)
-{
-  (void)state;
-  enum { LIT_RAYS = 300, LIT_AT_LEAST = LIT_RAYS / 2 };
-  struct random random = {SEED + 6};
-  for (int tip = 0; tip < 3; tip++) {
-    world_net nets[4];
-    struct world world;
-    for (size_t n = 0; n < 4; n++) {
-      cone_quarter(n, nets[n]);
-      for (int e = 4; e < 12 && tip != 1; e++)
-        for (int k = 0; k < 3; k++) nets[n][e / 4][e % 4][k] = nets[n][3][e % 4][k] * (e / 4) / 3;
-      for (int e = 0; e < 4 && tip == 2; e++)
-        for (int k = 0; k < 3; k++) nets[n][0][e][k] = random_between(&random, -0x1p-53, 0x1p-53);
-    }
-    world_open(&world, nets, 4, NULL);
-    unsigned lit = 0;
-    for (int n = 0; n < LIT_RAYS; n++) {
-      struct ray ray = {.t_max = 1 - 0x1p-26};
-      ray.origin[1] = -1.5;
-      for (int c = 0; c < 3; c += 2) ray.origin[c] = random_between(&random, -3, 3);
-      for (int c = 0; c < 3; c++) ray.direction[c] = -ray.origin[c];
-      if (fabs(hypot(ray.origin[0], ray.origin[2]) + ray.origin[1]) < 0.3) continue;
-      struct ray on = ray;
-      on.t_min = 1 + 0x1p-26, on.t_max = INFINITY;
-      for (int k = 0; k < 2; k++) {
-        const struct hit hit = world_closest(&world, k ? &on : &ray);
-        assert_int_equal(hit.patch, HIT_NONE);
-        assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-      }
-      lit++;
-    }
-    assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
-    assert_in_range(lit, LIT_AT_LEAST, LIT_RAYS);
-    world_close(&world);
-  }
-}
-
-/* ---- contacts of the third order ---- */
+/* ---- in a plane ---- */
 
 /* A quarter of a disc round the origin, flat in y = 0, with a pole in its middle. */
 static void disc_quarter(size_t quarter, world_net net)
@@ -424,9 +383,8 @@ int main(void)
                                      cmocka_unit_test(next_to_poles_little_is_left_open),
                                      cmocka_unit_test(next_to_poles_little_is_left_open_aslant),
                                      cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),
-                                     cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
+                                     cmocka_unit_test(from_poles_nothing_is_left_open),
                                      cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open),
-                                     cmocka_unit_test(next_to_a_tip_nothing_is_left_open),
                                      cmocka_unit_test(of_what_lies_in_a_plane_little_is_looked_at),
                                      cmocka_unit_test(solvers_are_charged)};
   return cmocka_run_group_tests(tests, NULL, NULL);

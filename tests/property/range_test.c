@@ -1,6 +1,5 @@
-/* Rays, patches and lengths over the whole range of doubles, in all combinations: a ray through the middle of a
+/* Rays, patches and lengths over the whole range of numbers that are read, in all combinations: a ray through the middle of a
  * patch meets it, whatever their sizes and wherever the ray starts. */
-#include <float.h>
 #include <string.h>
 #include <math.h>
 
@@ -10,25 +9,16 @@
 
 enum { SEED = 20261122, SCENES = 1500, RAYS = PACKET_SIZE };
 
-static const double sizes[] = {5e-324, 1e-320, 2.3e-308, 1e-307, 1e-300,  1e-200, 1e-160,  1e-30,   1e-10,
-                               1e-5,   0.25,   0.5,      1,      1,       1,      1e5,     1e10,    1e30,
-                               1e160,  1e200,  1e300,    1e307,  0.9e308, 1e308,  1.2e308, 1.7e308, 1.79e308};
+static const double sizes[] = {1e-100, 1e-90, 1e-60, 1e-30, 1e-10, 1e-5, 0.25, 0.5,  1,
+                               1,      1,     1e5,   1e10,  1e30,  1e60, 1e90, 1e100};
 
-static double any_size(struct random *random, double least, double most)
+static double any_size(struct random *random)
 {
-  double size;
-  do size = sizes[random_bits(random) % (sizeof sizes / sizeof *sizes)] * (1 - 0.3 * random_between(random, 0, 1));
-  while (!(size >= least && size <= most));
-  return size;
+  return sizes[random_bits(random) % (sizeof sizes / sizeof *sizes)] * (1 - 0.3 * random_unit(random));
 }
 
 /* A root nearer to the ray's start than this part of the patch cannot be told from it by 113 bits. */
 #define NEAR_START 1e-29
-
-/* Patches may be larger than the proofs allow (LARGEST_SIZE of model.c). Then roots nearer than this are not told
- * from the start. */
-#define LARGEST_PROVEN 0x1p1020
-#define NEAR_UNPROVEN 1e-6
 
 /* A ray that meets the patch next to its middle, at a t known to a part of `bend`. */
 struct shot {
@@ -41,7 +31,7 @@ struct shot {
 /* Across axis k, or along a diagonal through the middle of the frame. */
 static struct shot make_shot(struct random *random, int k, double size)
 {
-  const double away = any_size(random, 0, DBL_MAX), length = any_size(random, 0, DBL_MAX);
+  const double away = any_size(random), length = any_size(random);
   const bool diagonal = random_bits(random) % 2;
   struct shot shot = {.ray = {.t_max = INFINITY}, .start = away / size, .t = (wide)away / length, .hits = true};
   for (int c = 0; c < 3; c++) {
@@ -51,7 +41,7 @@ static struct shot make_shot(struct random *random, int k, double size)
     shot.ray.direction[c] = along ? side * length : 0;
   }
   const double twice = (double)(2 * shot.t), half = (double)(shot.t / 2);
-  const bool plain = half >= DBL_MIN && twice <= DBL_MAX && shot.start > 1e3; /* then the bend does not matter */
+  const bool plain = shot.start > 1e3; /* then the bend does not matter */
   switch (random_bits(random) % 4) {
   case 0:
     if (plain) shot.ray.t_max = twice;
@@ -74,23 +64,22 @@ static const char *wrong_hit(const struct shot *shot, const struct hit *hit, boo
   if (!shot->hits) return certain ? "a hit beyond the end" : NULL;
   if (!(hit->t > shot->ray.t_min && hit->t < shot->ray.t_max)) return "t out of range";
   const wide off = hit->t > shot->t ? hit->t - shot->t : shot->t - hit->t;
-  if (certain && flat && off > 1e-15 * shot->t && off > DBL_TRUE_MIN) return "a certain hit elsewhere";
+  if (certain && flat && off > 1e-15 * shot->t) return "a certain hit elsewhere";
   return NULL;
 }
 
-static int check(struct world *world, const struct shot shots[RAYS], double size, bool flat)
+static int check(struct world *world, const struct shot shots[RAYS], bool flat)
 {
   struct ray rays[RAYS];
   struct hit hits[RAYS];
   bool occluded[RAYS];
   int wrong = 0;
-  const double near = 1.5 * size > LARGEST_PROVEN ? NEAR_UNPROVEN : NEAR_START;
   for (int n = 0; n < RAYS; n++) rays[n] = shots[n].ray;
   tracer_closest(world->tracer, RAYS, rays, hits);
   tracer_occluded(world->tracer, RAYS, rays, occluded);
   for (int n = 0; n < RAYS; n++) {
     const struct shot *shot = &shots[n];
-    if (shot->start < near || (!flat && shot->start < 4)) continue;
+    if (shot->start < NEAR_START || (!flat && shot->start < 4)) continue;
     const struct hit alone = world_closest(world, &rays[n]);
     struct hit_list list;
     assert_int_equal(tracer_all(world->tracer, 1, &rays[n], &list), STATUS_OK);
@@ -111,7 +100,7 @@ TEST(rays_and_patches_of_all_sizes)
   int wrong = 0;
   for (int scene = 0; scene < SCENES; scene++) {
     const int k = scene % 3;
-    const double size = any_size(&random, 1e-300, 1.1e308);
+    const double size = any_size(&random);
     const double bend = scene % 2 ? 0 : size * random_between(&random, 0, 0.3);
     world_net net[1];
     for (int i = 0; i < 4; i++) {
@@ -128,7 +117,7 @@ TEST(rays_and_patches_of_all_sizes)
     if (scene % 5 == 0) method.split = 1;
     world_open(&world, net, 1, &method);
     for (int n = 0; n < RAYS; n++) shots[n] = make_shot(&random, k, size);
-    wrong += check(&world, shots, size, bend == 0);
+    wrong += check(&world, shots, bend == 0);
     world_close(&world);
   }
   assert_int_equal(wrong, 0);
@@ -245,35 +234,7 @@ static void floor_at(double height, double size, double bend, world_net net)
   }
 }
 
-/* Where scaling takes digits off a direction, or off an end of the ray, and the answer turns on them, nothing is
- * certain: a ray that passes a corner by less than a double resolves beside its length, and hits one place from an
- * end. The last ray keeps all digits. */
-TEST(what_scaling_takes_away_is_in_doubt)
-{
-  static const double least = 0x1p-1074, tiny = 0x1p-1040;
-  const struct ray rays[] = {{{tiny, tiny, 0}, {0, 0, tiny}, 0, nextafter(3, 4)},
-                             {{tiny, tiny, 0}, {0, 0, tiny}, nextafter(3, 0), INFINITY},
-                             {{0, 0, 0}, {-least, 0, 1e10}, 0, INFINITY},
-                             {{0, 0, 0}, {-least, least, 1e10}, 0, INFINITY},
-                             {{0.25, 0.5, 0}, {0, 0, 1e10}, 1e-20, 1}};
-  const size_t count = sizeof rays / sizeof *rays;
-  for (size_t n = 0; n < count; n++) {
-    const enum certainty want = n == count - 1 ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
-    world_net net[1];
-    struct world world;
-    struct hit_list list;
-    if (n < 2) floor_at(3 * tiny, 4 * tiny, 0, net[0]);
-    else floor_at(5, 1, 0.25, net[0]);
-    world_open(&world, net, 1, NULL);
-    assert_int_equal(world_closest(&world, &rays[n]).certainty, want);
-    assert_int_equal(tracer_all(world.tracer, 1, &rays[n], &list), STATUS_OK);
-    assert_int_equal(list.certainty, want);
-    world_close(&world);
-  }
-}
-
-/* The ray meets a pole exactly, next to its start. t is so small that no double can hold its rounding error; still
- * the pole is known to lie on one side of t_min. */
+/* The ray meets a pole exactly, next to its start; the pole is known to lie on one side of t_min. */
 TEST(poles_next_to_the_start_are_told)
 {
   struct random random = {SEED + 3};
@@ -283,7 +244,7 @@ TEST(poles_next_to_the_start_are_told)
   memset(net[0][0], 0, sizeof net[0][0]);
   world_open(&world, net, 1, NULL);
   for (int n = 0; n < 4000; n++) {
-    const double way = ldexp(rint(ldexp(random_between(&random, 1, 2), n % 53)), -1074 + n % 7 * 9);
+    const double way = ldexp(rint(ldexp(random_between(&random, 1, 2), n % 53)), -330 + n % 7 * 9);
     struct ray ray = {{0, 0, -way}, {0, 0, random_between(&random, 1, 2)}, 0, INFINITY};
     const double t = way / ray.direction[2], off = (double)(n % 3 - 1);
     if (n % 5) ray.t_min = off == 0 ? t : nextafter(t, off > 0 ? 1 : 0);
@@ -297,7 +258,7 @@ TEST(poles_next_to_the_start_are_told)
 /* Hits on patches far smaller than 2^-100 of their scene, the smallest size of a frame, have all their parts. */
 TEST(patches_lost_in_their_scene_have_normals)
 {
-  for (int k = 100; k < 800; k += 20) {
+  for (int k = 100; k < 640; k += 20) {
     world_net nets[2];
     struct world world;
     const double size = ldexp(1, -k / 2);

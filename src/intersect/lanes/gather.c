@@ -227,7 +227,7 @@ bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]
     struct hit *hits = lane_hits(p, lane, (const struct gathered **)gather->order.at + begin[lane],
                                  begin[lane + 1] - begin[lane], &out[lane]);
     for (size_t k = 0; k < out[lane].count && hits; k++) {
-      if (exponents) (void)hit_scale_back(&hits[k], &p->rays[lane], exponents[lane]);
+      if (exponents) hits[k].t = ldexp(hits[k].t, -exponents[lane]);
       /* Later hits are no nearer, though their last bits may say so. */
       if (k > 0 && hits[k].t < hits[k - 1].t) hits[k].t = hits[k - 1].t;
       if (hits[k].certainty != CERTAINTY_CERTAIN) out[lane].certainty = CERTAINTY_GRAZING;

@@ -36,19 +36,16 @@ LANES_INLINE void packet_start(struct packet *p, struct tracer *tracer, const st
 }
 
 /* Directions whose longest component is outside these are scaled by a power of two, to a longest component from 1 to 2.
- * Then no product over- or underflows and no t is larger than a distance. For a ray that starts at the end of the
- * doubles, any direction shorter than 1 is scaled. */
+ * That is exact: numbers are 0 or from 1e-100 to 1e100. */
 #define DIRECTION_MIN 0x1p-16
 #define DIRECTION_MAX 0x1p16
-#define ORIGIN_MAX 0x1p1000
 
 static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
 {
-  const double *d = ray->direction, *o = ray->origin, largest = fabs(d[dominant_axis(d)]);
-  const double least = fabs(o[dominant_axis(o)]) <= ORIGIN_MAX ? DIRECTION_MIN : 1;
+  const double *d = ray->direction, largest = fabs(d[dominant_axis(d)]);
   struct ray r = *ray;
   *out_exponent = 0;
-  if (largest >= least && largest <= DIRECTION_MAX) return r;
+  if (largest >= DIRECTION_MIN && largest <= DIRECTION_MAX) return r;
   frexp(largest, out_exponent);
   --*out_exponent;
   for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
@@ -56,29 +53,14 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   return r;
 }
 
-/* Whether scaling has lost digits at an end of the doubles; then what is found is another ray's. An infinite end is as
- * good as none. */
-static bool scaling_lost(const struct ray *ray, const struct ray *scaled, int exponent)
-{
-  bool same = ldexp(scaled->t_min, -exponent) == ray->t_min;
-  same &= isinf(scaled->t_max) || ldexp(scaled->t_max, -exponent) == ray->t_max;
-  for (int k = 0; k < 3; k++) same &= ldexp(scaled->direction[k], exponent) == ray->direction[k];
-  return !same;
-}
-
 /* Makes the packet from copies of its rays. Out of line, because it is rare. */
 __attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
                                                     size_t count, const struct ray rays[], bool any)
 {
-  unsigned lost = 0;
   ready->copied = true;
-  for (size_t l = 0; l < count; l++) {
-    ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
-    if (scaling_lost(&rays[l], &ready->copy[l], ready->exponent[l])) lost |= 1u << l;
-  }
+  for (size_t l = 0; l < count; l++) ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
   for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
   packet_start(p, tracer, ready->copy, count, any, &ready->postponed);
-  if (lost) packet_orient(p), p->best.doubt = lanes_mask(lost);
 }
 
 void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
@@ -91,9 +73,7 @@ void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, 
   for (int l = 0; l < LANES; l++) postponed->count[l] = 0;
   if (count == 1 || count == LANES) {
     packet_start(p, tracer, rays, count, any, postponed);
-    lane_mask scaled = (p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX);
-    for (int k = 0; k < 3; k++) scaled |= lanes_abs(p->origin[k]) > ORIGIN_MAX;
-    if (!lanes_any(scaled)) return;
+    if (!lanes_any((p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX))) return;
   }
   packet_copied(p, ready, tracer, count, rays, any);
 }

@@ -320,9 +320,9 @@ LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const 
   for (size_t h = 0; h < packets_of(count); h++) {
     struct packet *packet = &bundle.packet[h];
     struct hit *hits = out_hits + h * LANES;
-    unsigned grazing = finish_hits(packet, hits);
+    const unsigned grazing = finish_hits(packet, hits);
     for (size_t l = 0; l < packet->count && ready[h].copied; l++)
-      if (hits[l].patch != HIT_NONE) grazing += hit_scale_back(&hits[l], &packet->rays[l], ready[h].exponent[l]);
+      if (hits[l].patch != HIT_NONE) hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
     if (grazing) unsettled |= finish_unsettled(packet, hits) << h * LANES;
     tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
     tracer->counts.rays[0] += packet->count;
