@@ -31,35 +31,6 @@ static lane_mask candidate_put_off(struct packet *p, const struct candidate *it,
   return later ? (lane_mask){0} : open;
 }
 
-/* Lanes whose ray starts exactly in the plane, and leaves it. */
-LANES_INLINE lane_mask leaves_at_start(const struct packet *p, const struct flat_plane *plane)
-{
-  return packet_starts_in(p, plane) & (p->direction[plane->axis] != 0);
-}
-
-/* The lanes of `open` whose ray starts in the plane across an axis that the patch lies in, leaves it, and starts beside
- * the patch's box: they meet nothing of the patch. */
-static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask open)
-{
-  const struct flat_plane *plane = model_flat_plane(p->model, patch);
-  if (!plane) return (lane_mask){0};
-  open &= leaves_at_start(p, plane);
-  if (!lanes_any(open)) return open;
-  struct bvh_box box = BVH_EMPTY;
-  box_add_net(&box, p->model->scene->patches[patch].P);
-  lane_mask inside = open;
-  for (int k = 0; k < 3; k++) inside &= (p->origin[k] >= box.lo[k]) & (p->origin[k] <= box.hi[k]);
-  return open & ~inside;
-}
-
-/* Leaves to the last resort what no stage has decided. */
-static void leave_open(struct packet *p, struct candidate *it, lane_mask open)
-{
-  open &= ~leaves_beside(p, it->leaf->patch, open);
-  if (lanes_any(open)) open &= ~leaves_vertex(p, it, open);
-  if (lanes_any(open)) packet_postpone(p, it, open);
-}
-
 /* A scene with `polish off` asks for the roots as its solver finds them. There only the slab closes a leaf before
  * that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
@@ -82,7 +53,11 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   packet_charge(p, open & COST_PLANES);
   entered[STAGE_PLANES] += lanes_count(open);
   planes_set(it);
-  if (patch->method->polish) open = stage_cover(p, it, open);
+  if (patch->method->polish) {
+    const lane_mask met = open & planes_meet_pole(it);
+    if (lanes_any(met)) packet_postpone(p, it, met);
+    open = stage_cover(p, it, open & ~met);
+  }
   if (!lanes_any(open)) return;
   packet_charge(p, open & COST_RESULTANT);
   entered[STAGE_RESULTANT] += lanes_count(open);
@@ -92,7 +67,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (patch->lanes == SOLVER_LANES_SIGNS) open = stage_first_root(p, it, open);
   else if (patch->method->polish) open = stage_all_roots(p, it, open);
   else open = stage_bare_roots(p, it, open);
-  if (lanes_any(open)) leave_open(p, it, open);
+  if (lanes_any(open)) packet_postpone(p, it, open);
 }
 
 /* Reports what came of a candidate for a ray that is to be explained. It is in lane 0, and the other lanes are the
@@ -124,7 +99,7 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
 LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_plane *plane)
 {
   const lanes above = p->origin[plane->axis] - plane->value, up = p->direction[plane->axis];
-  const lane_mask touches = leaves_at_start(p, plane);
+  const lane_mask touches = packet_leaves_plane(p, plane);
   return ((above > 0) & (up >= 0)) | ((above < 0) & (up <= 0)) | (p->any ? touches : touches & (p->t_min > 0));
 }
 
@@ -152,7 +127,7 @@ void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *
     it.axis = __builtin_ctz(bits), it.line = &p->line[it.axis];
     const lane_mask at = active & p->on_axis[it.axis], blind = at & ~(it.line->error <= BLIND);
     const lane_mask here = at & ~blind;
-    if (lanes_any(blind)) leave_open(p, &it, blind);
+    if (lanes_any(blind)) packet_postpone(p, &it, blind);
     const bool explained = p->tracer->explainer && lanes_any(at);
     if (explained) explain_before(p->tracer, p->model, it.patch, it.number, p->best.t[0]);
     if (lanes_any(here)) candidate_pass(p, &it, here);

@@ -43,9 +43,8 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
 lanes slab_begin(const struct packet *p, const struct candidate *it);
 
 /* planes.c: returns the lanes of `open` whose ray starts exactly in a vertex of the patch, a corner or a pole, and meets
- * no other point of the leaf. At a pole, or a corner whose handles have no length, no Jacobian is regular. Sets the
- * polynomials. */
-lane_mask leaves_vertex(const struct packet *p, struct candidate *it, lane_mask open);
+ * no other point of the leaf. At a pole, or a corner whose handles have no length, no Jacobian is regular. */
+lane_mask leaves_vertex(const struct packet *p, const struct candidate *it, lane_mask open);
 
 /* bilinear.c: finds the root of the leaf's bilinear part by a resultant of degree 2, and refines it by Newton's method
  * on the leaf. A lane stays open if the ray is so slanted that the root is not proven to be the only one. */
@@ -57,6 +56,9 @@ lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask 
 
 /* planes.c: sets the plane polynomials a and b. */
 void planes_set(struct candidate *it);
+
+/* planes.c: the lanes whose ray meets the leaf's pole, as far as doubles tell. No later stage decides these. */
+lane_mask planes_meet_pole(const struct candidate *it);
 
 /* cover.c: closes lanes where pieces that cover the leaf show that it has no root, by the default method also none
  * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces with
@@ -95,6 +97,10 @@ void method_starts(const struct packet *p, const struct candidate *it, lane_mask
 
 /* one_by_one.c: without polish the roots of r are the answer, proven or not. */
 lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
+
+/* A ray whose planes' polynomials are both less than this many times their error at a pole meets it, as far as doubles
+ * tell. */
+#define POLE_MET 4
 
 /* A patch lies within |w| < 1 in its frame; a ray is not examined beyond this. */
 #define FRAME_END 2.0

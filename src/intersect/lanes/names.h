@@ -26,6 +26,7 @@
 #define stage_bilinear KERNEL(stage_bilinear)
 #define stage_quadric KERNEL(stage_quadric)
 #define planes_set KERNEL(planes_set)
+#define planes_meet_pole KERNEL(planes_meet_pole)
 #define leaves_vertex KERNEL(leaves_vertex)
 #define stage_cover KERNEL(stage_cover)
 #define stage_resultant KERNEL(stage_resultant)

@@ -8,6 +8,8 @@
 
 #include "base/real.h"
 #include "intersect/lanes/gather.h"
+#include "intersect/prepare/leaf.h"
+#include "intersect/prepare/patch.h"
 
 void packet_exhaust(struct packet *p, unsigned exhausted)
 {
@@ -65,8 +67,26 @@ static void postpone(struct packet *p, const struct exact_region *region, lanes 
   }
 }
 
+/* The lanes of `open` whose ray starts in the plane across an axis that the patch lies in, leaves it, and starts beside
+ * the patch's box: they meet nothing of the patch. */
+static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask open)
+{
+  const struct flat_plane *plane = model_flat_plane(p->model, patch);
+  if (!plane) return (lane_mask){0};
+  open &= packet_leaves_plane(p, plane);
+  if (!lanes_any(open)) return open;
+  struct bvh_box box = BVH_EMPTY;
+  box_add_net(&box, p->model->scene->patches[patch].P);
+  lane_mask inside = open;
+  for (int k = 0; k < 3; k++) inside &= (p->origin[k] >= box.lo[k]) & (p->origin[k] <= box.hi[k]);
+  return open & ~inside;
+}
+
 void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open)
 {
+  open &= ~leaves_beside(p, it->leaf->patch, open);
+  if (lanes_any(open)) open &= ~leaves_vertex(p, it, open);
+  if (!lanes_any(open)) return;
   const struct leaf *leaf = it->leaf;
   const struct exact_region region = {.leaf = p->outer || !p->model->leaves ? NULL : leaf,
                                       .patch = leaf->patch + (p->outer ? p->copy->first_patch : 0),
@@ -236,7 +256,7 @@ LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candid
   const struct leaf *leaf = it->leaf;
   const lanes reach = root_reach(leaf, &root->at);
   const lanes off = leaf->parts.error + TAIL_ERROR + root->left;
-  return packet_has_digits(p, it->patch, NEAR_START, root->t) &
+  return packet_has_digits(p, it->patch, root->t) &
          (off * it->patch->scale * reach <=
           72 * FINAL_ROUNDINGS * UNIT_ROUNDOFF * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
 }

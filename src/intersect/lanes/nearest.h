@@ -49,7 +49,8 @@ LANES_INLINE lane_mask inside(const struct newton_root *r)
          (r->v - 1 <= r->radius_v);
 }
 
-/* Postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it (exact.h). */
+/* Postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it (exact.h), unless
+ * the ray starts in the leaf's plane or in a vertex, and meets nothing else of it. */
 void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open);
 
 /* Postpones all leaves of a copy that the best root of these lanes may be in. Next to a border between two leaves, the

@@ -24,14 +24,11 @@ LANES_INLINE void fetch(const void *from, size_t size)
 }
 
 /* Roots nearer to the ray's start than this part of their patch's frame need more digits than the last step gives,
- * 2^-72 of the frame. */
+ * 2^-72 of the frame, and get them from the last resort. */
 #define NEAR_START 0x1p-16
 
-/* The last step on control points relative to the start, right to 2^-100, is enough for roots as near as this. */
-#define NEAREST_START 0x1p-44
-
-/* Roots farther from the start than this need more digits, too: the moments of such a ray, in double-double, are no
- * better than 2^-60 (MOMENT_ERROR). */
+/* So do roots farther from the start than this: the moments of such a ray, in double-double, are no better than 2^-60
+ * (MOMENT_ERROR). */
 #define FAR_START 0x1p40
 
 /* The best root of every lane. */
@@ -44,7 +41,7 @@ struct best {
   struct surface_point point;
   lanes normal[3];   /* of any length and sense */
   lanes tangent;     /* bound on the coordinates of the derivatives whose product is the normal */
-  lane_mask doubt;   /* unsure: a root near t_min was left out unproven, work ran out, or scaling lost digits */
+  lane_mask doubt;   /* unsure: a root near t_min was left out unproven, or the budget was exhausted */
   lane_mask touches; /* the ray starts on a patch: in doubt whatever else is known, whatever the other rays are */
 };
 
@@ -177,23 +174,23 @@ void packet_orient(struct packet *p);
  * leaf was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
-/* Lanes whose root at t, in units of the packet's directions, is nearer to the ray's start than `part` of the patch's
- * frame. */
-LANES_INLINE lane_mask packet_nearer(const struct packet *p, const struct model_patch *patch, double part, lanes t)
+/* Lanes whose root at t, in units of the packet's directions, has all its digits after the last step. */
+LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, lanes t)
 {
-  return lanes_abs(t) * p->longest < part * patch->scale;
-}
-
-/* Lanes whose root is at least `from` of the frame away, and no farther than FAR_START. */
-LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, double from, lanes t)
-{
-  return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
+  const lanes away = lanes_abs(t) * p->longest;
+  return (away >= NEAR_START * patch->scale) & (away <= FAR_START * patch->scale);
 }
 
 /* Lanes whose ray starts exactly in the plane. */
 LANES_INLINE lane_mask packet_starts_in(const struct packet *p, const struct flat_plane *plane)
 {
   return p->origin[plane->axis] == plane->value;
+}
+
+/* Lanes whose ray starts exactly in the plane, and leaves it. */
+LANES_INLINE lane_mask packet_leaves_plane(const struct packet *p, const struct flat_plane *plane)
+{
+  return packet_starts_in(p, plane) & (p->direction[plane->axis] != 0);
 }
 
 /* Lanes whose ray starts exactly in control point `at` of the patch, numbered as by edge_at. The ray's line passes that

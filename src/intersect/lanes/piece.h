@@ -199,7 +199,7 @@ LANES_INLINE bool piece_root(const struct piece_ray *ray, const struct piece *pi
  * from the border. The numerator is 0 there, so its coefficients of row n are those of the quotient in row n - 1, times
  * n/3, and the quotient is raised to degree 3 again. Nothing else knows of poles.
  *
- * c0 and c1 are off by e, so their quotient by 3 e/|c0| where |c0| >= 4 e; and the numerator by 2 e for f0 and f1, that
+ * c0 and c1 are off by e, so their quotient by 3 e/|c0| where |c0| >= 4 e (POLE_MET); and the numerator by 2 e for f0 and f1, that
  * times f0, and roundings. If |c0| is less, the ray meets the pole, as far as doubles tell, and the pair stays. */
 LANES_INLINE void piece_divide(struct piece_ray *ray, struct piece *piece)
 {
@@ -207,7 +207,7 @@ LANES_INLINE void piece_divide(struct piece_ray *ray, struct piece *piece)
   const double first = piece->f[0].c[at / 4][at % 4], second = piece->f[1].c[at / 4][at % 4];
   const int kept = fabs(first) >= fabs(second) ? 0 : 1;
   const double c0 = kept ? second : first, ratio = (kept ? first : second) / c0, e = ray->error[0];
-  if (!(fabs(c0) >= 4 * e)) return;
+  if (!(fabs(c0) >= POLE_MET * e)) return;
   struct net numerator, *quotient = &piece->f[1 - kept];
   net_combine(piece->f, kept ? -1 : ratio, kept ? ratio : -1, &numerator);
   row *c = numerator.c;

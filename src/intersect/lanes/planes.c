@@ -47,6 +47,13 @@ void planes_set(struct candidate *it)
   for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
 }
 
+lane_mask planes_meet_pole(const struct candidate *it)
+{
+  if (!it->leaf->pole) return (lane_mask){0};
+  const int at = edge_at(it->leaf->pole - 1, 0);
+  return lanes_max(lanes_abs(it->a[at]), lanes_abs(it->b[at])) < POLE_MET * it->line->error;
+}
+
 /* Whether these control points of the patch are equal numbers. */
 static bool same_points(double P[4][4][3], int m, int n)
 {
@@ -61,14 +68,15 @@ static lane_mask leaves_start(const struct packet *p, const struct candidate *it
 {
   const double *x = it->leaf->x[it->axis];
   double low = INFINITY, high = -INFINITY;
-  lanes A = {0}, B = {0}, size = {0}, least = lanes_all(INFINITY);
+  lanes a[16], b[16], A = {0}, B = {0}, size = {0}, least = lanes_all(INFINITY);
   for (int n = 0; n < 16; n++) {
-    size = lanes_max(size, lanes_max(lanes_abs(it->a[n]), lanes_abs(it->b[n])));
-    if (!still[n]) A += it->a[n], B += it->b[n];
+    plane_values(it->line, it->axis, it->leaf->x, n, &a[n], &b[n]);
+    size = lanes_max(size, lanes_max(lanes_abs(a[n]), lanes_abs(b[n])));
+    if (!still[n]) A += a[n], B += b[n];
     if (!still[n]) low = real_min(low, x[n] - x[at]), high = real_max(high, x[n] - x[at]);
   }
   for (int n = 0; n < 16; n++)
-    if (!still[n]) least = lanes_min(A * it->a[n] + B * it->b[n], least);
+    if (!still[n]) least = lanes_min(A * a[n] + B * b[n], least);
   /* the combination's three roundings come on top of the coefficients' error */
   const lanes off = (it->line->error + 8 * UNIT_ROUNDOFF * size) * (lanes_abs(A) + lanes_abs(B));
   const lanes up = p->direction[it->axis], nearest = lanes_select(up > 0, lanes_all(-high), lanes_all(low));
@@ -99,7 +107,7 @@ static void keep_whole_rows(int border, bool still[16])
 
 /* What holds for the patch holds for its leaves: for one in that corner, and for all at a pole, whose rows are in it as
  * a whole. */
-lane_mask leaves_vertex(const struct packet *p, struct candidate *it, lane_mask open)
+lane_mask leaves_vertex(const struct packet *p, const struct candidate *it, lane_mask open)
 {
   const struct leaf *leaf = it->leaf;
   const uint16_t *split = it->patch->cut.split;
@@ -114,7 +122,6 @@ lane_mask leaves_vertex(const struct packet *p, struct candidate *it, lane_mask 
     bool still[16];
     still_at_corner(p->model->scene->patches[leaf->patch].P, at, still);
     if (!in_leaf) keep_whole_rows(pole, still);
-    planes_set(it);
     leaves |= starts & leaves_start(p, it, at, still);
   }
   return leaves;
