@@ -39,36 +39,12 @@ LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, la
   start[0] = s, start[1] = near_middle(-value / lanes_select(steep, slope_a, slope_b));
 }
 
-/* A root this near to a pole is where the fan of the tangents at the pole has one. The bilinear part, which is that of
- * the middle, has its pole elsewhere. A choice of speed. */
-#define NEAR_POLE 0.25
-
-/* Takes the fan's root where that is near the pole, at distance d, between the first and the last tangent. */
-LANES_INLINE void fan_root(const struct candidate *it, lanes start[2])
-{
-  const int border = it->leaf->pole - 1, inward = edge_inward(border);
-  lanes a0, b0, across[2], along[2];
-  plane_values(it->line, it->axis, it->leaf->x, edge_at(border, 0), &a0, &b0);
-  for (int k = 0; k < 2; k++) {
-    lanes a, b;
-    plane_values(it->line, it->axis, it->leaf->x, edge_at(border, 3 * k) + inward, &a, &b);
-    across[k] = a0 * b - b0 * a, along[k] = a0 * (a - a0) + b0 * (b - b0);
-  }
-  const lanes e = across[0] / (across[0] - across[1]),
-              d = -(a0 * a0 + b0 * b0) / (3 * (along[0] + e * (along[1] - along[0])));
-  const lane_mask near = (d > 0) & (d < NEAR_POLE) & (e >= 0) & (e <= 1);
-  const int side = border / 2;
-  start[side] = lanes_select(near, border & 1 ? 0.5 - d : d - 0.5, start[side]);
-  start[1 - side] = lanes_select(near, e - 0.5, start[1 - side]);
-}
-
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask active)
 {
   struct leaf_root *root = &it->first;
   lanes start[2];
   lane_mask tried = active;
   bilinear_root(p, it, &tried, start);
-  if (it->leaf->pole) fan_root(it, start);
   root->at.exists = (lane_mask){0};
   if (!lanes_any(tried)) return active;
   newton_solve(p, it->leaf, it->axis, start, tried, root);
