@@ -160,8 +160,7 @@ struct model_copy {
   double W[3][3], b[3];
 };
 
-/* From this many surfaces on that a line crosses, rays take what waits in the order in which they reach it, whichever
- * node it is below, so that little is tried behind a hit. With fewer crossings the sorting does not pay. */
+/* From this many surfaces on that a line crosses, nodes may have the boxes along their leaves side by side. */
 enum { MANY_CROSSINGS = 4 };
 
 /* How deep frames may nest, since the walk recurses into them. Boxes of still smaller things exclude fewer rays, but

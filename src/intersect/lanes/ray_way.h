@@ -22,11 +22,9 @@ LANES_INLINE void fetch_child(const struct model *model, const struct model_tree
   }
 }
 
-/* Whether rays take what waits in the order in which they reach it. Any hit is found the sooner the less waits. */
-LANES_INLINE bool nearest_first(const struct bundle *b, const struct model_tree *tree)
-{
-  return tree->crossings >= MANY_CROSSINGS && !b->packet[0].any && !b->packet[0].gather;
-}
+/* Whether rays take what waits in the order in which they reach it, whichever node it is below, so that little is tried
+ * behind a hit. Any hit is found the sooner the less waits, and for all hits the order does not matter. */
+LANES_INLINE bool nearest_first(const struct bundle *b) { return !b->packet[0].any && !b->packet[0].gather; }
 
 /* The place in the stack, with `top` entries waiting, from which new ones are sorted in. No more than BVH_STACK may
  * wait in that order; beyond that, what is below one of them goes node by node. */
@@ -45,11 +43,10 @@ struct ray_way {
   } stack[MOST_WAITING];
 };
 
-LANES_INLINE void ray_begin(const struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane,
-                            struct ray_way *way)
+LANES_INLINE void ray_begin(const struct bundle *b, uint32_t child, unsigned lane, struct ray_way *way)
 {
   way->ray = ray_view_of(&b->view, lane), way->lane = lane, way->child = child, way->top = 0;
-  way->nearest = nearest_first(b, tree);
+  way->nearest = nearest_first(b);
 }
 
 /* Goes on from a leaf, or from a node none of whose children is passed, to the nearest entry of the stack. Returns

@@ -120,7 +120,7 @@ LANES_INLINE bool ray_passes(struct bundle *b, const struct model_tree *tree, ui
 static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane)
 {
   struct ray_way way;
-  ray_begin(b, tree, child, lane, &way);
+  ray_begin(b, child, lane, &way);
   for (bool on = true; on && ray_looks(b, lane);) {
     const uint32_t box = way.child & ~BVH_LEAF;
     if (way.child == box) {
@@ -141,7 +141,7 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
   uint32_t waits_at[FLOAT_LANES] = {0}; /* a leaf child; 0: nowhere */
   for (unsigned bits = rays; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    ray_begin(b, tree, 0, lane, &ways[lane]);
+    ray_begin(b, 0, lane, &ways[lane]);
   }
   while (rays) {
     for (unsigned bits = rays; bits; bits &= bits - 1) {
@@ -242,7 +242,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   struct waiting waiting;
   waiting.top = waiting.rooms = 0;
   const int few = most_alone(b);
-  const bool nearest = nearest_first(b, tree);
+  const bool nearest = nearest_first(b);
   uint32_t child = 0;
   int looks = 0;
   for (bool on = true; on;) {
