@@ -30,12 +30,6 @@
  * and the last term is at most 0.67 bend_k step^2 + 1.9 bend (step + size) size_k, with 1.9/8 = 0.24. Compare Ortega
  * and Rheinboldt, Iterative Solution of Nonlinear Equations, 12.6.
  *
- * Units. The theorem holds in any units of the parameters up to 1: for f(c d, e) in place of f(d, e), where derivatives
- * by d are c times what they were, M's row for d, and lengths along d, 1/c times. Next to a pole c is the root's distance
- * from it. In units of 1 the bend times the errors grows there with 1/c^2, though the root is a simple one; in these it
- * grows with 1/c. "Alone" stays as it is, with the step and size of these units, which are no less: E_11, E_22 and the
- * product of E_12 and E_21 do not change with units.
- *
  * Alone. A region has no second root if M J, averaged on the way from the root to any point of the region, is not
  * singular. That average is 1 + E, where |E_kl| is at most the length of row k of M times what column l of J is off by.
  * Its determinant is then at least 1 - |E_11| - |E_22|, because the bounds' products for E_11 E_22 and for E_12 E_21
@@ -48,23 +42,6 @@
  *   most 2 q <= 3.8.
  * - kappa.
  * Together that is less than 0.05, so all is less than 1.
- *
- * Alone at a pole, a border that is one point, along which J is singular. Let d be the distance from that border and e
- * the other parameter. As f is constant along the border, f(d,e) - f(d',e') is the mean of f_d from (d',e') to (d,e')
- * times d - d', plus d times the mean of g from (d,e') to (d,e) times e - e'. Here g = f_e / d is the mean of f_de from
- * the border to there. If the matrix of these two means, times M, is not singular for the root (d',e') and all points
- * with d >= 0, there is no other root, nor one on the border. The rows that it is multiplied by are those of M, that of
- * e times d'. Twice what f_dd makes of f_d, and f_dde and f_dee make of g, is
- *
- *     q = size_d f_dd reach_d + d' size_e (f_dde reach_d + f_dee reach_e)
- *
- * with bounds of these derivatives and `size` for the lengths of M's rows. The root does not lie where the step went:
- * on the way there, of less than 1.7 (step + size) with the errors' size, f_d turns by f_dd and f_de, and g by f_dde
- * and f_dee. Both count twice against q, and once for the reaches. Rounding: third derivatives are differences of
- * coefficients times 144; together with second ones (24 and 144 + 144) they add sqrt 2 size for q. f_d and f_e are off
- * by 16, twice; d g is f_e at the root, so that the row of e, times d', gets back what division by d took: 93 size.
- * Outside the leaf that is up to 2.3 times as much, for which CERTIFICATE_POLE has room. d' differs from the d of the
- * last point but one by at most step and radius: that adds twice these, `far`, over the least that either is, `left`.
  *
  * All macros work on doubles and on lanes.
  */
@@ -87,11 +64,5 @@
 
 /* Whether the root is alone. */
 #define certificate_alone(q, size) ((q) + CERTIFICATE_SECOND * (size) < CERTIFICATE_ALONE)
-
-/* Whether the root is alone near a pole. `turn`: what f_d and g turn by on a way of length 1, times the rows'
- * lengths. */
-#define CERTIFICATE_POLE 1280
-#define certificate_alone_at_pole(q, turn, step, size, far, left) \
-  ((q) + 6 * (turn) * ((step) + (size)) + 2 * (far) / (left) + CERTIFICATE_POLE * (size) < CERTIFICATE_ALONE)
 
 #endif

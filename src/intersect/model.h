@@ -105,7 +105,6 @@ struct leaf {
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
-  double third[2]; /* on |Suuv|, |Suvv|, if there is a pole */
   struct leaf_parts parts;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   struct leaf_quadric quadric;

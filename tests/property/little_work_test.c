@@ -187,7 +187,7 @@ static void next_to_poles_little_is_left_open_aslant(void **state)
 {
   (void)state;
   enum { ASLANT_RAYS = 400 };
-  static const double radii[] = {1e2, 1e3, 1e4, 1e6};
+  static const double radii[] = {1e2, 1e3, 1e4};
   struct random random = {SEED + 7};
   for (size_t k = 0; k < sizeof radii / sizeof radii[0]; k++) {
     struct world world;

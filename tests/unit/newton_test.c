@@ -126,68 +126,9 @@ static void a_proven_root_is_within_its_radii(void **state)
   assert_true(most > 0.25); /* not vacuous */
 }
 
-/* Makes a patch that is one leaf, a bent fan from the pole at its border u = 0. */
-static void make_fan(struct random *random, struct subject *s)
-{
-  double along[2][3];
-  const double bend = pow(2, -random_between(random, 3, 20));
-  method_default(solver_at(0), &s->method);
-  s->patch = (struct model_patch){
-    .scale = 1, .cut = {.m = 3, .n = 3, .split = {1, 1}}, .method = &s->method, .pole = {true}};
-  s->patch.rest = (const double(*)[4][4])s->rest;
-  for (int k = 0; k < 3; k++) {
-    for (int side = 0; side < 2; side++) along[side][k] = random_between(random, -0.4, 0.4);
-    for (int n = 0; n < 16; n++)
-      s->patch.x[k][n / 4][n % 4] = n / 4 / 3.0 * (along[0][k] + along[1][k] * (n % 4 / 1.5 - 1)) +
-                                    (n < 4 ? 0 : bend * random_between(random, -0.1, 0.1));
-  }
-  leaves_make(&s->patch, 0, 0, 1, &s->leaf);
-}
-
-/* However near the pole a root is, it is proven if the points' errors are far smaller than its distance. */
-static void next_to_a_pole_too(void **state)
-{
-  (void)state;
-  enum { NEAREST = 40 };
-  struct random random = {SEED + 1};
-  unsigned tried = 0, proven = 0, alone = 0;
-  double most = 0;
-  for (int n = 0; n < CASES; n++) {
-    struct subject s = {.patch = {.scale = 0}};
-    struct packet *p = &s.packet;
-    double at[LANES][2];
-    lanes start[2];
-    const double away = random_between(&random, 1, NEAREST),
-                 error = pow(2, -away - random_between(&random, 10, 50 - away));
-    make_fan(&random, &s);
-    assert_int_equal(s.leaf.pole, 1);
-    for (unsigned lane = 0; lane < LANES; lane++) {
-      at[lane][0] = pow(2, -away), at[lane][1] = random_between(&random, 0, 1);
-      make_ray(&random, &s, at[lane], lane);
-      start[0][lane] = at[lane][0] * random_between(&random, 0.9, 1.1) - 0.5, start[1][lane] = at[lane][1] - 0.45;
-    }
-    subject_look(&s, error);
-    for (unsigned axes = p->axes; axes; axes &= axes - 1) {
-      const int axis = __builtin_ctz(axes);
-      struct leaf_root root;
-      newton_solve(p, &s.leaf, axis, start, p->on_axis[axis], &root);
-      tried += lanes_count(p->on_axis[axis]), proven += lanes_count(root.at.exists & p->on_axis[axis]);
-      alone += lanes_count(root.at.alone & p->on_axis[axis]);
-      for (unsigned bits = lanes_bits(root.at.exists & p->on_axis[axis]); bits; bits &= bits - 1) {
-        const unsigned lane = (unsigned)__builtin_ctz(bits);
-        most = worse(most, farthest(&s, &root.at, lane, at[lane], error));
-      }
-    }
-  }
-  print_message("at poles %u proven of %u, %u alone; off by %.3g of the radius\n", proven, tried, alone, most);
-  assert_true(proven > tried / 2 && alone > tried / 4);
-  assert_true(most <= 1 && most > 0.25);
-}
-
 __attribute__((noinline)) static int run(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_proven_root_is_within_its_radii),
-                                     cmocka_unit_test(next_to_a_pole_too)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_proven_root_is_within_its_radii)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
 

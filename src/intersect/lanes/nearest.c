@@ -142,8 +142,8 @@ LANES_INLINE lanes root_reach(const struct leaf *leaf, const struct newton_root 
 {
   const lanes radius[2] = {r->radius_u, r->radius_v};
   if (leaf->pole == 0) return leaf->first[0] * radius[0] + leaf->first[1] * radius[1];
-  const int d = (leaf->pole - 1) / 2;
-  const lanes away = lanes_abs(pole_distance(leaf, r)) + radius[d];
+  const int border = leaf->pole - 1, d = border / 2;
+  const lanes at = d ? r->v : r->u, away = lanes_abs(border & 1 ? 1 - at : at) + radius[d];
   return leaf->first[d] * radius[d] + lanes_min(lanes_all(leaf->first[1 - d]), leaf->second[1] * away) * radius[1 - d];
 }
 

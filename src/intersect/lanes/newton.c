@@ -212,68 +212,25 @@ LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
 #define NEWTON_BESIDE 0x1p-7
 #define NEWTON_BESIDE_GROWTH 4
 
-/* Nearer to a pole than this the certificate measures the distance from it in units of that of the root, for otherwise the
- * other parameter, which turns round the pole, seems to bend ever more. A choice of speed. */
-#define POLE_UNIT 0x1p-5
-
-/* That unit for a root at this distance from the pole; 1 where there is none. */
-LANES_INLINE lanes pole_unit(lanes away) { return lanes_select((away > 0) & (away < POLE_UNIT), away, lanes_all(1)); }
-
-/* Takes to that unit what the certificate asks for next to the leaf's pole: the lengths of the rows of M, the last step's
- * length, and |Suu| + 2 |Suv| + |Svv|. Returns the unit. The second derivative by the parameter that turns round the pole
- * vanishes there, and elsewhere is no more than a third one times the distance, up to that of the ball in which the
- * theorem wants it. */
-LANES_INLINE lanes scale_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes steps[2],
-                                 lanes length[2], lanes *step, lanes *second)
-{
-  const int d = (leaf->pole - 1) / 2, e = 1 - d;
-  const lanes unit = pole_unit(pole_distance(leaf, r)), far = (1 + 4 * CERTIFICATE_REACH) * unit;
-  const lanes whole = lanes_all(leaf->second[2 * e]);
-  const lanes ee = lanes_select(unit < 1, lanes_min(whole, far * leaf->third[e]), whole);
-  *step = lanes_max(lanes_abs(steps[d]) / unit, lanes_abs(steps[e]));
-  *second = unit * (unit * leaf->second[2 * d] + 2 * leaf->second[1]) + ee;
-  length[d] /= unit;
-  return unit;
-}
-
-/* Lanes whose root is the only one of a leaf with a pole, by certificate.h. size: lengths of the rows of M; step and off
- * in that unit of the distance. */
-LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes size[2],
-                                     lanes unit, lanes step, lanes off, const lanes reach[2])
-{
-  const int d = (leaf->pole - 1) / 2, e = 1 - d;
-  const lanes away = pole_distance(leaf, r);
-  const lanes radius = d ? r->radius_v : r->radius_u, far = unit * step + radius, left = away - far;
-  const lanes of_e = (away + radius) * size[e];
-  const double *third = leaf->third, dd = leaf->second[2 * d], dde = third[d], dee = third[e];
-  const lanes q = size[d] * (dd * reach[d]) + of_e * (dde * reach[d] + dee * reach[e]);
-  const lanes turn = size[d] * (dd + leaf->second[1]) + of_e * (dde + dee);
-  return (left > 0) & certificate_alone_at_pole(q, turn, step, off, far, left);
-}
-
 /* The certificate (certificate.h). Sets all but u and v of *r, which are where the last steps went on the lanes that
  * `settled`; step is the longer one, `bound` bounds the errors of values in the leaf. */
-LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes bound,
-                        const lanes steps[2], lanes step, lane_mask settled, struct newton_root *r)
+LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes bound, lanes step,
+                        lane_mask settled, struct newton_root *r)
 {
   const lanes away[2] = {lanes_abs(r->u - 0.5), lanes_abs(r->v - 0.5)}, farthest = lanes_max(away[0], away[1]);
   const lanes error = lanes_select(farthest > 0.5 + NEWTON_BESIDE, NEWTON_BESIDE_GROWTH * bound, bound);
   const lanes length[2] = {row_length(m->ua, m->ub, slope), row_length(m->va, m->vb, slope)};
-  lanes scaled[2] = {length[0], length[1]}, unit = lanes_all(1);
-  lanes second = lanes_all(leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
-  if (leaf->pole) unit = scale_at_pole(leaf, r, steps, scaled, &step, &second);
-  const lanes size = lanes_max(scaled[0], scaled[1]), bend = size * second, off = size * error;
+  const double *second = leaf->second;
+  const lanes size = lanes_max(length[0], length[1]), bend = size * (second[0] + 2 * second[1] + second[2]);
+  const lanes off = size * error;
   const lane_mask near = (away[0] < 0.5 + NEWTON_MARGIN) & (away[1] < 0.5 + NEWTON_MARGIN);
   r->exists = settled & near & certificate_holds(bend, step, off);
-  r->radius_u = certificate_radius(bend, step, scaled[0] * error);
-  r->radius_v = certificate_radius(bend, step, scaled[1] * error);
-  if (leaf->pole > 2) r->radius_v *= unit;
-  else if (leaf->pole) r->radius_u *= unit;
+  r->radius_u = certificate_radius(bend, step, length[0] * error);
+  r->radius_v = certificate_radius(bend, step, length[1] * error);
   const lanes reach[2] = {0.5 + away[0], 0.5 + away[1]};
-  const lanes q = length[0] * (leaf->second[0] * reach[0] + leaf->second[1] * reach[1]) +
-                  length[1] * (leaf->second[1] * reach[0] + leaf->second[2] * reach[1]);
+  const lanes q = length[0] * (second[0] * reach[0] + second[1] * reach[1]) +
+                  length[1] * (second[1] * reach[0] + second[2] * reach[1]);
   r->alone = r->exists & certificate_alone(q, off);
-  if (leaf->pole) r->alone |= r->exists & alone_at_pole(leaf, r, length, unit, step, off, reach);
 }
 
 /* The rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size
@@ -290,13 +247,6 @@ LANES_INLINE lanes from_middle(lanes s, lanes step)
 {
   const lanes moved = 0.5 + s;
   return moved + ((s - (moved - 0.5)) - step);
-}
-
-/* Lanes whose step is short enough for the certificate next to the leaf's pole, too. */
-LANES_INLINE lane_mask settled_at_pole(const struct leaf *leaf, lanes s, lanes t, lanes step_s, lanes step_t)
-{
-  const struct newton_root to = {.u = from_middle(s, step_s), .v = from_middle(t, step_t)};
-  return lanes_abs(leaf->pole > 2 ? step_t : step_s) <= CERTIFICATE_STEP * pole_unit(pole_distance(leaf, &to));
 }
 
 void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
@@ -320,7 +270,6 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
     step = lanes_max(lanes_abs(step_s), lanes_abs(step_t));
     if (n > FREE_STEPS) moving &= step < 0.5 * before;
     settled = active & (step <= parts->last_step);
-    if (leaf->pole) settled &= settled_at_pole(leaf, s, t, step_s, step_t);
     /* A root far outside the leaf is not sought further, nor one without progress (NaN compares false). */
     moving &= ~settled & (lanes_abs(s - step_s) < 2) & (lanes_abs(t - step_t) < 2);
     if (n == MOST_STEPS || !lanes_any(moving)) break;
@@ -328,7 +277,7 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
     s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
   }
   out->at.u = from_middle(s, step_s), out->at.v = from_middle(t, step_t);
-  prove(leaf, &m, line->slope, line->error + parts->error, (const lanes[2]){step_s, step_t}, step, settled, &out->at);
+  prove(leaf, &m, line->slope, line->error + parts->error, step, settled, &out->at);
   const struct double_lanes way = double_lanes_sum(x[k].hi, line->start[0]);
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
   out->w = x[k].hi + rest;

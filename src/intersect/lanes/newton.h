@@ -24,14 +24,6 @@ LANES_INLINE lane_mask roots_meet(const struct newton_root *a, const struct newt
          (lanes_abs(a->v - b->v) <= a->radius_v + b->radius_v + UNIT_ROUNDOFF);
 }
 
-/* The root's distance from the leaf's pole, in the parameter across it. */
-LANES_INLINE lanes pole_distance(const struct leaf *leaf, const struct newton_root *r)
-{
-  const int border = leaf->pole - 1;
-  const lanes at = border < 2 ? r->u : r->v;
-  return border & 1 ? 1 - at : at;
-}
-
 /* A root on a leaf. Points and derivatives are in the frame of its patch, and usable if the root is within the leaf's
  * margin. */
 struct leaf_root {

@@ -39,7 +39,7 @@ static void patch_halve(const struct model_patch *patch, int leaves, struct patc
 /* Parts of a patch, and what is known of them. */
 struct cut {
   lane_net head[REGISTERS], tail[REGISTERS], x[REGISTERS]; /* x: their sum */
-  lanes first[2], second[3], third[2];
+  lanes first[2], second[3];
 };
 
 static struct lane_range range_of(lanes column, int span, int split)
@@ -108,27 +108,9 @@ static void second_bounds(lane_net x[REGISTERS], lanes out[3])
   out[0] = longest(uu, 8), out[1] = longest(uv, 9), out[2] = longest(vv, 8);
 }
 
-/* |Suuv|, |Suvv|. */
-static void third_bounds(lane_net x[REGISTERS], lanes out[2])
+/* Bounds for the parts widened by `margin`, in their own parameters. */
+static void bounds(double margin, struct cut *cut)
 {
-  lanes uuv[6][REGISTERS], uvv[6][REGISTERS];
-  for (int k = 0; k < REGISTERS; k++) {
-    for (int n = 0; n < 6; n++) {
-      const int i = n / 3, j = n % 3;
-      lanes across[3], along[3]; /* of rows and of columns */
-      for (int m = 0; m < 3; m++)
-        across[m] = x[k][i + m][j + 1] - x[k][i + m][j], along[m] = x[k][j + 1][i + m] - x[k][j][i + m];
-      uuv[n][k] = 18 * (across[2] - 2 * across[1] + across[0]);
-      uvv[n][k] = 18 * (along[2] - 2 * along[1] + along[0]);
-    }
-  }
-  out[0] = longest(uuv, 6), out[1] = longest(uvv, 6);
-}
-
-/* Bounds for the parts widened by `margin`, in their own parameters; also on third derivatives if `third`. */
-static void bounds(double margin, bool third, struct cut *cut)
-{
-  cut->third[0] = cut->third[1] = lanes_all(0);
   if (!(margin > 0)) {
     first_bounds(cut->x, cut->first), second_bounds(cut->x, cut->second);
     return;
@@ -136,10 +118,9 @@ static void bounds(double margin, bool third, struct cut *cut)
   lane_net wide[REGISTERS];
   for (int k = 0; k < REGISTERS; k++) subnet_widened((const lanes(*)[4])cut->x[k], margin, wide[k]);
   first_bounds(wide, cut->first), second_bounds(wide, cut->second);
-  if (third) third_bounds(wide, cut->third);
   const double shrink = 1 / (1 + 2 * margin);
   for (int k = 0; k < 3; k++) cut->second[k] *= shrink * shrink;
-  for (int k = 0; k < 2; k++) cut->first[k] *= shrink, cut->third[k] *= shrink * shrink * shrink;
+  for (int k = 0; k < 2; k++) cut->first[k] *= shrink;
 }
 
 /* ---- Taylor's polynomial ---- */
@@ -342,7 +323,7 @@ static void parts(const struct model_patch *patch, const struct part_grid *grid,
     lanes at[2], derivatives[5];
     load_columns(column[0], 2, here, at);
     cut_nets(&halves, at, grid, &cut);
-    bounds(grid->margin, false, &cut);
+    bounds(grid->margin, &cut);
     memcpy(derivatives, cut.first, sizeof cut.first), memcpy(derivatives + 2, cut.second, sizeof cut.second);
     store_nets(&cut, here, out->x, PART);
     lanes_scatter(derivatives, 5, here, out->first, PART);
@@ -385,7 +366,7 @@ static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], 
   store_taylor(parts, here, leaves);
   for (size_t lane = 0; lane < here; lane++) {
     struct leaf *leaf = &leaves[lane];
-    for (int k = 0; k < 2; k++) leaf->first[k] = cut->first[k][lane], leaf->third[k] = cut->third[k][lane];
+    for (int k = 0; k < 2; k++) leaf->first[k] = cut->first[k][lane];
     for (int k = 0; k < 3; k++) leaf->second[k] = cut->second[k][lane];
     leaf->parts.error = parts->error[lane];
     leaf->parts.final = exact && leaf->parts.error <= FINAL_ERROR;
@@ -397,7 +378,7 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
 {
   const struct part_grid grid = leaf_grid(patch);
   const int all = grid.split[0] * grid.split[1];
-  const bool exact = split_is_exact(all), pole = patch->pole[0] || patch->pole[1] || patch->pole[2] || patch->pole[3];
+  const bool exact = split_is_exact(all);
   struct patch_halves halves;
   patch_halve(patch, all, &halves);
   while (count > 0) {
@@ -408,7 +389,7 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
     lanes at[2];
     load_columns(&leaves->column_u, sizeof *leaves / sizeof leaves->column_u, here, at);
     cut_nets(&halves, at, &grid, &cut);
-    bounds(grid.margin, pole, &cut);
+    bounds(grid.margin, &cut);
     set_parts(&cut, exact, &parts);
     set_slabs(cut.x, slab);
     leaves_store(&cut, slab, &parts, exact, here, leaves);
