@@ -344,7 +344,7 @@ static void of_what_lies_in_a_plane_little_is_looked_at(void **state)
 
 /* ---- solvers that never end ---- */
 
-/* Near misses of many patches, for solvers that run to their limit of steps on each: a ray's share of work ends after
+/* Near misses of many patches, for solvers that run to their limit of steps on each: a ray's budget ends after
  * a few. */
 static void solvers_are_charged(void **state)
 {
