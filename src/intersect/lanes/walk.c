@@ -331,8 +331,7 @@ LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const 
 }
 
 /* A ray that did not come to an end counts as hit. In company it is asked again alone. */
-LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[],
-                                  int budget)
+LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out[], int budget)
 {
   struct ready ready[PACKETS];
   struct bundle bundle;
@@ -343,7 +342,7 @@ LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const str
     const struct packet *packet = &bundle.packet[h];
     const unsigned hit = finish_occluded(packet);
     again |= packet_cut_off(packet) != 0;
-    for (size_t l = 0; l < packet->count; l++) out_occluded[h * LANES + l] = hit >> l & 1;
+    for (size_t l = 0; l < packet->count; l++) out[h * LANES + l] = hit >> l & 1;
     tracer->counts.rays[1] += packet->count;
   }
   return again;
