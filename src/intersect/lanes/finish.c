@@ -179,19 +179,20 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   return write_hits(p, group, &a, out);
 }
 
-/* Finishes the lanes of `group`. Their best roots are on one patch, and their rays share an axis. */
-static unsigned finish_group(const struct packet *p, unsigned group, int axis, struct model_patch *patch,
+/* Finishes the lanes of `group`. Their best roots are on one patch, their rays share an axis, and the roots are all
+ * near the rays' starts, or none is. */
+static unsigned finish_group(const struct packet *p, unsigned group, int axis, struct model_patch *patch, bool near,
                              struct hit out[])
 {
   const struct best *best = &p->best;
   struct last_step step;
-  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
+  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction, step.near = near;
   step.improves = lanes_mask(group) & best->certain;
   step.u = lanes_clamp(best->u, 0, 1), step.v = lanes_clamp(best->v, 0, 1), step.t = best->t;
   last_step_take(&step);
   struct answers a = {.u = step.u, .v = step.v, .t = step.t, .done = step.done};
   a.done &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
-            packet_has_digits(p, patch, best->t);
+            packet_has_digits(p, patch, NEAREST_START, best->t);
   a.point = surface_point(patch, step.point, step.tangent);
   for (int c = 0; c < 3; c++) a.normal[c] = step.normal[c];
   return write_hits(p, group, &a, out);
@@ -240,7 +241,9 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
     struct patch_room room;
     struct model_patch *of = model_patch_at(p->model, (uint32_t)patch, &room);
-    grazing += finish_group(p, group, axis, of, out);
+    const unsigned near = group & lanes_bits(packet_nearer(p, of, NEAR_START, p->best.t));
+    if (group != near) grazing += finish_group(p, group & ~near, axis, of, false, out);
+    if (near) grazing += finish_group(p, near, axis, of, true, out);
     left &= ~group;
   }
   return grazing;

@@ -5,7 +5,8 @@
  * the last places. Its residuals a(u,v), b(u,v) are as if computed in half as much precision again. The leading parts
  * have few bits on a common grid, so their sums are exact (as in Rump, Ogita and Oishi, Accurate Floating-Point
  * Summation, 2008, and Ozaki and others, Error-free transformations of matrix multiplication, 2012). That takes one
- * multiply-add a product, where sums that keep track of their error take ten.
+ * multiply-add a product, where sums that keep track of their error take ten. Roots near the ray's start use the
+ * latter, on control points relative to the start.
  */
 #include "intersect/lanes/last_step.h"
 
@@ -18,6 +19,10 @@ enum { LAST_STEPS_MAX = 3 };
 /* A step longer than this, in patch parameters, is followed by another one: the derivatives that give point and normal
  * are off by about as much, relative to the second derivatives. */
 #define LAST_STEP_LONGEST 0x1p-44
+
+/* The same near the ray's start, where t is as short as 2^-44 of the patch (NEAREST_START): the step leaves its square
+ * times the second derivatives. */
+#define LAST_STEP_LONGEST_NEAR 0x1p-52
 
 /* Splits a number of absolute value at most 1. The product of two heads, and a sum of such products up to 2, is then a
  * multiple of 2^-52 and exact. The tails add 2^-26 of it, and their rounding is smaller by as much. */
@@ -99,6 +104,34 @@ LANES_INLINE void last_step_evaluate(const struct last_step_net *net, const stru
   }
 }
 
+/* last_step_evaluate on control points relative to the ray's start, in double-double: the way is right to some
+ * 2^-100. */
+static void last_step_evaluate_near(const struct model_patch *patch, const struct double_lanes start[3], lanes u,
+                                    lanes v, struct last_step_jet *out)
+{
+  struct double_lanes wu[4], wv[4];
+  lanes du[4], dv[4];
+  last_step_weights(u, wu, du);
+  last_step_weights(v, wv, dv);
+  for (int c = 0; c < 3; c++) {
+    struct double_lanes way = {{0}, {0}};
+    lanes by_u = {0}, by_v = {0};
+    for (int i = 0; i < 4; i++) {
+      struct double_lanes row = {{0}, {0}};
+      lanes row_dv = {0};
+      for (int j = 0; j < 4; j++) {
+        const struct double_lanes point = {lanes_all(patch->x[c][i][j]), lanes_all(patch->rest[c][i][j])};
+        const struct double_lanes from_start = double_lanes_subtract(point, start[c]);
+        row = double_lanes_add(row, double_lanes_multiply(wv[j], from_start));
+        row_dv = lanes_multiply_add(dv[j], from_start.hi, row_dv);
+      }
+      way = double_lanes_add(way, double_lanes_multiply(wu[i], row));
+      by_u = lanes_multiply_add(du[i], row.hi + row.lo, by_u), by_v = lanes_multiply_add(wu[i].hi, row_dv, by_v);
+    }
+    out->way[c] = way, out->s[c] = double_lanes_add(way, start[c]), out->du[c] = by_u, out->dv[c] = by_v;
+  }
+}
+
 LANES_INLINE void last_step_normal(struct last_step *l, const struct last_step_jet *jet)
 {
   lanes normal[3];
@@ -120,12 +153,13 @@ void last_step_take(struct last_step *l)
   }
   lanes u = l->u, v = l->v, du, dv;
   struct last_step_net net;
-  last_step_split_net(patch, &net);
+  if (!l->near) last_step_split_net(patch, &net);
   struct last_step_jet jet;
   const struct double_lanes *way = jet.way;
   lane_mask moving = l->improves, again;
   for (int n = 0;; n++) {
-    last_step_evaluate(&net, start, u, v, &jet);
+    if (l->near) last_step_evaluate_near(patch, start, u, v, &jet);
+    else last_step_evaluate(&net, start, u, v, &jet);
     lanes f[2], fu[2], fv[2];
     for (int s = 0; s < 2; s++) {
       const int at = s ? j : i;
@@ -140,7 +174,7 @@ void last_step_take(struct last_step *l)
     const lanes size = lanes_max(lanes_abs(du), lanes_abs(dv));
     moving &= (lanes_abs(du) < 1) & (lanes_abs(dv) < 1);
     du = lanes_select(moving, du, lanes_all(0)), dv = lanes_select(moving, dv, lanes_all(0));
-    again = moving & (size > LAST_STEP_LONGEST);
+    again = moving & (size > (l->near ? LAST_STEP_LONGEST_NEAR : LAST_STEP_LONGEST));
     if (n + 1 == LAST_STEPS_MAX || !lanes_any(again)) break;
     /* A lane that is done stays where it is, so that its result does not depend on the others. */
     u = lanes_select(again, u + du, u), v = lanes_select(again, v + dv, v);
@@ -155,4 +189,5 @@ void last_step_take(struct last_step *l)
   for (int c = 0; c < 3; c++) l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
   last_step_normal(l, &jet);
   l->done &= ~lost; /* the jet is elsewhere */
+  if (l->near) l->done &= ~again;
 }

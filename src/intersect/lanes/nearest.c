@@ -256,7 +256,7 @@ LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candid
   const struct leaf *leaf = it->leaf;
   const lanes reach = root_reach(leaf, &root->at);
   const lanes off = leaf->parts.error + TAIL_ERROR + root->left;
-  return packet_has_digits(p, it->patch, root->t) &
+  return packet_has_digits(p, it->patch, NEAR_START, root->t) &
          (off * it->patch->scale * reach <=
           72 * FINAL_ROUNDINGS * UNIT_ROUNDOFF * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
 }

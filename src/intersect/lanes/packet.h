@@ -24,11 +24,14 @@ LANES_INLINE void fetch(const void *from, size_t size)
 }
 
 /* Roots nearer to the ray's start than this part of their patch's frame need more digits than the last step gives,
- * 2^-72 of the frame, and get them from the last resort. */
+ * 2^-72 of the frame. All roots of rays between small things on a wide floor are as near. */
 #define NEAR_START 0x1p-16
 
-/* So do roots farther from the start than this: the moments of such a ray, in double-double, are no better than 2^-60
- * (MOMENT_ERROR). */
+/* The last step on control points relative to the start, right to 2^-100, is enough for roots as near as this. */
+#define NEAREST_START 0x1p-44
+
+/* Roots farther from the start than this need more digits, too: the moments of such a ray, in double-double, are no
+ * better than 2^-60 (MOMENT_ERROR). */
 #define FAR_START 0x1p40
 
 /* The best root of every lane. */
@@ -174,11 +177,17 @@ void packet_orient(struct packet *p);
  * leaf was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
-/* Lanes whose root at t, in units of the packet's directions, has all its digits after the last step. */
-LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, lanes t)
+/* Lanes whose root at t, in units of the packet's directions, is nearer to the ray's start than `part` of the patch's
+ * frame. */
+LANES_INLINE lane_mask packet_nearer(const struct packet *p, const struct model_patch *patch, double part, lanes t)
 {
-  const lanes away = lanes_abs(t) * p->longest;
-  return (away >= NEAR_START * patch->scale) & (away <= FAR_START * patch->scale);
+  return lanes_abs(t) * p->longest < part * patch->scale;
+}
+
+/* Lanes whose root is at least `from` of the frame away, and no farther than FAR_START. */
+LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, double from, lanes t)
+{
+  return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
 }
 
 /* Lanes whose ray starts exactly in the plane. */
