@@ -3,9 +3,12 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 const char *input_reason(int error)
 {
@@ -36,6 +39,24 @@ int input_open(const char *path, enum input_kind kind, const char **out_reason)
   else if ((file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | (S_ISREG(info.st_mode) ? O_NONBLOCK : 0))) < 0)
     *out_reason = input_reason(errno); /* so as not to wait at a file that is none, such as /proc/kmsg */
   return file;
+}
+
+bool input_is_below(int file, const char *folder, size_t folder_length)
+{
+  char name[64], target[PATH_MAX];
+  snprintf(name, sizeof name, "/proc/self/fd/%d", file);
+  const ssize_t length = readlink(name, target, sizeof target - 1);
+  char *copy = length > 0 ? strndup(folder, folder_length) : NULL;
+  char *path = copy == NULL ? NULL : realpath(folder_length == 0 ? "." : copy, NULL);
+  bool below = false;
+  if (path != NULL) {
+    const size_t prefix = strcmp(path, "/") == 0 ? 0 : strlen(path);
+    target[length] = '\0';
+    below = strncmp(target, path, prefix) == 0 && target[prefix] == '/';
+  }
+  free(path);
+  free(copy);
+  return below;
 }
 
 /* The folder that a name is in, and where the name in it begins. */

@@ -7,6 +7,7 @@
 #define PSCN_BASE_INPUT_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* What may be opened: only files, or also pipes, for whose writer and end the reader waits. */
 enum input_kind { INPUT_FILE, INPUT_FILE_OR_PIPE };
@@ -14,6 +15,10 @@ enum input_kind { INPUT_FILE, INPUT_FILE_OR_PIPE };
 /* A descriptor for reading the file at `path`, which the caller closes. -1 if it cannot be read; *out_reason then says
  * why in English words. */
 int input_open(const char *path, enum input_kind kind, const char **out_reason);
+
+/* Whether an open file is in this folder, whose name has folder_length bytes (0: the current one), or below it, by
+ * whatever links its name has led there. */
+bool input_is_below(int file, const char *folder, size_t folder_length);
 
 /* Words of our own for an errno value of opening or reading. They depend on neither the locale nor the system. */
 const char *input_reason(int error);

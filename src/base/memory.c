@@ -6,10 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#if defined(__linux__)
+#include <malloc.h> /* malloc_usable_size */
+#endif
 
 enum { HUGE_PAGE_BYTES = 1 << 21 };
 
 static _Thread_local struct memory_hooks hooks_now;
+static _Thread_local struct memory_limit *limit_now;
 
 struct memory_hooks memory_use(struct memory_hooks hooks)
 {
@@ -18,12 +22,59 @@ struct memory_hooks memory_use(struct memory_hooks hooks)
   return before;
 }
 
+struct memory_limit *memory_limit_use(struct memory_limit *limit)
+{
+  struct memory_limit *before = limit_now;
+  limit_now = limit;
+  return before;
+}
+
+struct memory_limit *memory_limit_now(void) { return limit_now; }
+
+bool memory_limit_reached(void) { return limit_now && atomic_load(&limit_now->reached); }
+
+/* What a block takes: its size, and libc's own number before it. */
+static size_t taken(void *block)
+{
+#if defined(__linux__)
+  return block ? malloc_usable_size(block) + sizeof(size_t) : 0;
+#else
+  (void)block;
+  return 0;
+#endif
+}
+
+/* Whether that many more bytes are allowed. */
+static bool allowed(size_t bytes)
+{
+  if (!limit_now || limit_now->most == 0) return true;
+  const size_t used = atomic_load(&limit_now->used);
+  if (used <= limit_now->most && bytes <= limit_now->most - used) return true;
+  atomic_store(&limit_now->reached, true);
+  return false;
+}
+
+/* Counts a new block instead of one that took `before`. */
+static void *counted(void *block, size_t before)
+{
+  if (limit_now && block) atomic_fetch_add(&limit_now->used, taken(block) - before);
+  return block;
+}
+
+/* Zeroed elements from libc. */
+static void *new_block(size_t count, size_t size)
+{
+  size_t bytes;
+  if (__builtin_mul_overflow(count, size, &bytes) || !allowed(bytes)) return NULL;
+  return counted(calloc(count ? count : 1, size), 0);
+}
+
 bool memory_is_libcs(void) { return hooks_now.resize == NULL; }
 
 void *memory_alloc(size_t count, size_t size)
 {
   size_t bytes;
-  if (!hooks_now.resize) return calloc(count ? count : 1, size);
+  if (!hooks_now.resize) return new_block(count, size);
   if (__builtin_mul_overflow(count, size, &bytes)) return NULL;
   void *block = hooks_now.resize(hooks_now.context, NULL, bytes ? bytes : 1);
   if (block) memset(block, 0, bytes);
@@ -32,7 +83,9 @@ void *memory_alloc(size_t count, size_t size)
 
 void *memory_resize(void *block, size_t size)
 {
-  return hooks_now.resize ? hooks_now.resize(hooks_now.context, block, size) : realloc(block, size);
+  if (hooks_now.resize) return hooks_now.resize(hooks_now.context, block, size);
+  const size_t before = limit_now ? taken(block) : 0;
+  return size > before && !allowed(size - before) ? NULL : counted(realloc(block, size), before);
 }
 
 enum { A_FEW = 32 };
@@ -78,6 +131,7 @@ void memory_used_anywhere(void *block, size_t size)
 
 void memory_free(void *block)
 {
+  if (!hooks_now.resize && limit_now) atomic_fetch_sub(&limit_now->used, taken(block));
   if (!hooks_now.resize) free(block);
   else if (block) (void)hooks_now.resize(hooks_now.context, block, 0);
 }

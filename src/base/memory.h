@@ -7,6 +7,7 @@
 #ifndef PSCN_BASE_MEMORY_H
 #define PSCN_BASE_MEMORY_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -17,6 +18,22 @@ struct memory_hooks {
 
 /* Sets where this thread's memory comes from; returns where it came from before. */
 struct memory_hooks memory_use(struct memory_hooks hooks);
+
+/* A limit on libc's memory of all threads that use it together. Where the system does not tell the sizes of blocks,
+ * nothing is limited. */
+struct memory_limit {
+  size_t most; /* bytes; 0: no limit */
+  atomic_size_t used;
+  atomic_bool reached; /* something was refused */
+};
+
+/* Sets the limit of this thread, which is borrowed; NULL: none. Returns the one before. Blocks are counted by the thread
+ * that allocates or frees them. */
+struct memory_limit *memory_limit_use(struct memory_limit *limit);
+struct memory_limit *memory_limit_now(void);
+
+/* Whether this thread's limit was the reason that memory was refused to some thread. */
+bool memory_limit_reached(void);
 
 /* Whether there are no hooks. */
 bool memory_is_libcs(void);

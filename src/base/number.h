@@ -23,8 +23,8 @@ enum number_kind {
  * NUMBER_NONE. No blanks are skipped; inf, nan and hexadecimal are no numbers. */
 enum number_kind number_read(const char *text, size_t length, double *out_value, size_t *out_used);
 
-/* The numbers of scenes and rays. Larger ones are errors, smaller ones are read as 0, so that no product of three
- * overflows or vanishes. */
+/* The numbers of scenes and rays. Larger ones are errors; smaller ones count as 0 where they are a coordinate or the
+ * result of arithmetic. So no product of three overflows or vanishes. */
 #define NUMBER_LARGEST 1e100
 #define NUMBER_LEAST 1e-100
 

@@ -110,6 +110,7 @@ static const char *dumped_because(const struct request *request)
   struct stat info;
   const char *path = request->check.path;
   if (request->dump) return "--dump is given";
+  if (request->scene.untrusted) return "--untrusted is given";
   const bool file = !output_is_standard(path) && (stat(path, &info) != 0 || S_ISREG(info.st_mode));
   return file ? NULL : "the scene is no file that can be read again";
 }

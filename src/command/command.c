@@ -12,6 +12,7 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "base/source.h"
 #include "command/interrupt.h"
 #include "command/values.h"
@@ -115,20 +116,27 @@ void command_warning(const struct command *command, const char *format, ...)
   va_end(arguments);
 }
 
+static enum status try_help(const struct command *command)
+{
+  if (command == NULL) fputs("Try 'pscn help'.\n", stderr);
+  else fprintf(stderr, "Try 'pscn help %s'.\n", command->name);
+  return STATUS_USAGE;
+}
+
 enum status command_usage(const struct command *command, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
   print_told(command, "error", format, arguments);
   va_end(arguments);
-  if (command == NULL) fputs("Try 'pscn help'.\n", stderr);
-  else fprintf(stderr, "Try 'pscn help %s'.\n", command->name);
-  return STATUS_USAGE;
+  return try_help(command);
 }
 
 enum status command_out_of_memory(const struct command *command)
 {
-  command_error(command, "out of memory");
+  command_error(command, "%s",
+                memory_limit_reached() ? "the scene takes more memory than is allowed; --max-memory allows more"
+                                       : "out of memory");
   return STATUS_LIMIT;
 }
 
@@ -247,13 +255,12 @@ static void make_tables(const struct command *command, struct getopt_tables *out
 static void unknown_option(const struct command *command, const char *word, const char *begun)
 {
   const size_t length = strcspn(word, "=");
-  const char *instead = povray_equal(command, word);
   const bool whole = word[1] == '-'; /* a word rather than letters */
   struct guess guess = guess_begin(word + 1 + whole, length - 1 - whole);
   for (const struct command_option *option = command->options; whole && option->name != NULL; option++)
     guess_consider(&guess, option->name, strlen(option->name));
-  if (begun == NULL && guess.best == NULL && instead != NULL)
-    command_usage(command, "option '%s' is POV-Ray's; here %s", word, instead);
+  if (begun == NULL && guess.best == NULL && strchr("0123456789.", word[1]) != NULL)
+    command_usage(command, "option '%s': unknown option; numbers are read from files or standard input", word);
   else if (begun == NULL && guess.best == NULL) command_usage(command, "option '%s': unknown option", word);
   else
     command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length, word,
@@ -308,14 +315,21 @@ enum status command_line_read(const struct command *command, int argc, const cha
 {
   struct getopt_tables tables;
   make_tables(command, &tables);
+  const char *foreign = NULL; /* the last option of POV-Ray's */
   *out = (struct command_line){.positional = argv};
   optind = 0; /* getopt_long starts anew */
   for (int at = 1, found;; at = optind) {
     found = getopt_long(argc, (char *const *)argv, tables.letters, tables.names, NULL);
     if (found == -1) break;
+    const char *instead = found == '?' || (found == OPERAND && access(optarg, F_OK) != 0)
+                            ? povray_equal(command, argv[at])
+                            : NULL;
+    if (instead != NULL) {
+      if (argv[at] != foreign) command_error(command, "option '%s' is POV-Ray's; here %s", argv[at], instead);
+      foreign = argv[at];
+      continue;
+    }
     if (found == OPERAND) {
-      const char *instead = optarg[0] == '+' && access(optarg, F_OK) != 0 ? povray_equal(command, optarg) : NULL;
-      if (instead != NULL) return command_usage(command, "option '%s' is POV-Ray's; here %s", optarg, instead);
       argv[out->positional_count++] = optarg; /* after those already read */
       continue;
     }
@@ -333,6 +347,7 @@ enum status command_line_read(const struct command *command, int argc, const cha
   }
   while (optind < argc) /* after "--" */
     argv[out->positional_count++] = argv[optind++];
+  if (foreign != NULL) return try_help(command);
   if (out->positional_count < count)
     return command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
   const size_t most = count + (strchr(command->arguments, '[') != NULL);

@@ -133,8 +133,11 @@ static enum status check_format(const struct command *command, struct rendering_
   return STATUS_OK;
 }
 
+/* The most pixels, and rays from the camera, of a stranger's scene. */
+enum { UNTRUSTED_PIXELS = 1 << 24, UNTRUSTED_RAYS = 1 << 28 };
+
 /* Completes and checks the part of the picture that is rendered. */
-static enum status check_crop(const struct command *command, struct render_options *options)
+static enum status check_crop(const struct command *command, bool untrusted, struct render_options *options)
 {
   struct rectangle *crop = &options->crop;
   if (crop->width == 0) *crop = (struct rectangle){.width = options->width, .height = options->height};
@@ -144,6 +147,9 @@ static enum status check_crop(const struct command *command, struct render_optio
   if (crop->height > IMAGE_MAX_PIXELS / crop->width)
     return command_usage(command, "%zux%zu pixels are more than the %d that a picture may have", crop->width,
                          crop->height, IMAGE_MAX_PIXELS);
+  const size_t pixels = crop->width * crop->height;
+  if (untrusted && (pixels > UNTRUSTED_PIXELS || pixels * options->samples * options->samples > UNTRUSTED_RAYS))
+    return command_usage(command, "--untrusted allows %d pixels and %d samples", UNTRUSTED_PIXELS, UNTRUSTED_RAYS);
   return STATUS_OK;
 }
 
@@ -153,6 +159,8 @@ static enum status complete(const struct command *command, struct request *reque
   struct rendering_request *picture = &request->picture;
   picture->scene = &request->scene;
   picture->options.width = request->scene.width, picture->options.height = request->scene.height;
+  if (picture->output == NULL && request->scene.untrusted)
+    return command_usage(command, "-o FILE names the picture: with --untrusted it is not beside the scene");
   if (picture->output == NULL) picture->output = request->output = output_name(request->scene.path, ".png");
   picture->how = request->how = scene_request_text(&request->scene);
   bool enough = picture->output != NULL && picture->how != NULL;
@@ -198,7 +206,7 @@ static enum status check(const struct command *command, struct rendering_request
   if (output_is_standard(picture->output) && isatty(STDOUT_FILENO) == 1)
     return command_usage(command, "a picture is not written to a terminal; -o FILE says where to");
   enum status status = check_format(command, picture);
-  if (status == STATUS_OK) status = check_crop(command, &picture->options);
+  if (status == STATUS_OK) status = check_crop(command, picture->scene->untrusted, &picture->options);
   if (status == STATUS_OK) status = rendering_check_outputs(command, picture, NULL);
   if (status == STATUS_OK) status = output_probe(command, picture->output);
   if (status == STATUS_OK) status = output_probe(command, picture->stats);

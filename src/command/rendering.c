@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "command/interrupt.h"
 #include "command/output.h"
 #include "command/piece.h"
@@ -27,6 +28,9 @@ enum status rendering_check_outputs(const struct command *command, const struct 
 
 /* ---- what is done so far ---- */
 
+/* Loading what writes the part takes half a second, for which a signal need not wait then. In seconds. */
+#define LOADS_AFTER 1.0
+
 /* A rendering in progress. */
 struct rendering {
   const struct command *command;
@@ -39,6 +43,9 @@ struct rendering {
   bool has_old;  /* an earlier run's file, from which we do not continue */
   size_t left;   /* pixels of this picture in the earlier run's file, from which we do not continue */
   bool warned;   /* of a scene of which nothing will be visible */
+  /* for the picture, or if that is a PNG for the part, once the rendering takes LOADS_AFTER */
+  struct image_loading *loading;
+  bool loads_part;
 };
 
 /* Writes what is done into its file. Returns whether that worked; prints the error if not. */
@@ -76,6 +83,11 @@ static void look(void *context, const struct render_progress *progress)
   struct rendering *rendering = context;
   const struct rendering_request *request = rendering->request;
   if (!request->scene->quiet) progress_tell(&rendering->progress, progress);
+  if (request->format == IMAGE_PNG && request->part != NULL && !rendering->loads_part &&
+      progress->seconds > LOADS_AFTER) {
+    rendering->loads_part = true;
+    image_loading_begin(rendering->loading, true);
+  }
   if (request->part == NULL || !(request->checkpoint > 0) ||
       progress->seconds - rendering->kept < request->checkpoint ||
       tile_list_pixels(&rendering->piece.tiles, true) == 0 || has_less(rendering))
@@ -231,11 +243,12 @@ static struct seconds since(struct seconds start, const struct image_loading *lo
 }
 
 /* Waits until pictures can be written. Prints the error if they cannot. */
-static enum status loaded(const struct command *command, struct image_loading *loading)
+static enum status loaded(const struct rendering *rendering, struct image_loading *loading)
 {
   const char *message;
   const enum status status = image_loading_end(loading, &message);
-  if (status != STATUS_OK) command_error(command, "cannot write pictures: %s", message);
+  if (rendering->request->format == IMAGE_PNG || status == STATUS_OK) return STATUS_OK;
+  command_error(rendering->command, "cannot write pictures: %s", message);
   return status;
 }
 
@@ -257,8 +270,10 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
   struct report *report = rendering->report;
   struct intersector *intersector = NULL;
   struct render_options options = rendering->request->options;
-  const struct render_watch watch = {
-    .progress = look, .context = rendering, .stop = &interrupt_signal, .failed = &loading->failed};
+  const struct render_watch watch = {.progress = look,
+                                     .context = rendering,
+                                     .stop = &interrupt_signal,
+                                     .failed = rendering->request->format == IMAGE_PNG ? NULL : &loading->failed};
   struct render_stats stats = {0};
   struct seconds start = now(loading);
   options.tiles = &rendering->piece.tiles;
@@ -266,6 +281,8 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
   const struct team team = threads_team(options.threads);
   enum status status = intersector_create_by(report->scene, &team, &intersector);
   report->build = since(start, loading);
+  if (status == STATUS_OK && !rendering->request->scene->quiet)
+    scene_file_warn_of_cuts(rendering->command, intersector);
   if (status == STATUS_OK) {
     interrupt_defer();
     start = now(loading);
@@ -277,8 +294,9 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
     report->threads = stats.threads;
     if (status == STATUS_OK) warn_of_nothing(rendering, &stats);
   }
-  if (status == STATUS_LIMIT) command_error(rendering->command, "out of memory or threads");
-  else if (atomic_load(&interrupt_signal) == 0) status = loaded(rendering->command, loading);
+  if (status == STATUS_LIMIT && memory_limit_reached()) (void)command_out_of_memory(rendering->command);
+  else if (status == STATUS_LIMIT) command_error(rendering->command, "out of memory or threads");
+  else if (atomic_load(&interrupt_signal) == 0) status = loaded(rendering, loading);
   report->loading = image_loading_seconds(loading);
   intersector_destroy(intersector);
   return status;
@@ -356,7 +374,8 @@ static enum status render(const struct command *command, const struct rendering_
                           .options = request->how,
                           .samples = request->options.samples,
                           .parse = since(start, loading)};
-  struct rendering rendering = {.command = command, .request = request, .report = &report, .warned = warned};
+  struct rendering rendering = {
+    .command = command, .request = request, .report = &report, .warned = warned, .loading = loading};
   if (status == STATUS_OK) status = rendering_check_outputs(command, request, scene);
   if (status == STATUS_OK) status = begin(&rendering);
   if (status == STATUS_OK) status = make_picture(&rendering, loading);

@@ -5,8 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "base/number.h"
 #include "base/text_buffer.h"
 #include "command/output.h"
@@ -70,9 +72,10 @@ enum status scene_request_take(const struct command *command, void *scene_reques
 /* A few lines of text can ask for any number of patches, so more than a share of the memory needs an option. */
 size_t scene_request_memory(const struct scene_request *request)
 {
-  const size_t most = (size_t)8 << 30, share = 4;
+  const size_t most = (size_t)8 << 30, share = 4, of_stranger = (size_t)256 << 20;
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   if (request->max_memory != 0) return request->max_memory;
+  if (request->untrusted) return of_stranger;
   if (pages <= 0 || page <= 0 || (size_t)pages > most * share / (size_t)page) return most;
   return (size_t)pages * (size_t)page / share;
 }
@@ -109,9 +112,13 @@ static enum status load(const struct command *command, const struct scene_reques
                                              .folders = folders,
                                              .numbers = request->numbers,
                                              .number_count = request->number_count,
+                                             .untrusted = request->untrusted,
                                              .max_memory = scene_request_memory(request)};
+  static struct memory_limit limit;
   struct diagnostics diagnostics = stderr_diagnostics(command);
   diagnostics.quiet = request->quiet;
+  limit.most = settings.max_memory;
+  (void)memory_limit_use(&limit);
   if (!output_is_standard(request->path)) return language_load(request->path, &settings, &diagnostics, out);
   struct source *text;
   const char *reason;
@@ -125,10 +132,22 @@ static enum status load(const struct command *command, const struct scene_reques
   return status;
 }
 
+/* Of the whole process, in CPU seconds, if the user sets no other limit; then comes SIGXCPU (interrupt.h). */
+enum { TIME_OF_STRANGER = 300 };
+
+static void limit_time(void)
+{
+  struct rlimit limit;
+  if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;
+  limit.rlim_cur = TIME_OF_STRANGER;
+  (void)setrlimit(RLIMIT_CPU, &limit);
+}
+
 enum status scene_file_load(const struct command *command, const struct scene_request *request, struct scene **out)
 {
   const char **folders = scene_request_folders(request);
   *out = NULL;
+  if (request->untrusted) limit_time();
   enum status status = folders == NULL ? command_out_of_memory(command) : load(command, request, folders, out);
   free(folders);
   if (status == STATUS_OK) status = scene_file_spare(command, request, *out, "-");
@@ -154,6 +173,12 @@ char *scene_request_text(const struct scene_request *request)
   return text_buffer_take(&text);
 }
 
+void scene_file_warn_of_cuts(const struct command *command, const struct intersector *intersector)
+{
+  if (intersector_cut_less(intersector))
+    command_warning(command, "memory is short: patches have fewer leaves than 'split' says; --max-memory allows more");
+}
+
 bool scene_file_warn(const struct command *command, const struct scene *scene)
 {
   const bool missing[] = {scene->patch_count == 0, scene->light_count == 0, !scene->has_camera};
@@ -166,10 +191,35 @@ bool scene_file_warn(const struct command *command, const struct scene *scene)
   return missing[0] || missing[1] || missing[2];
 }
 
+/* The folder of a name, all links followed; NULL if there is none. The caller frees it. */
+static char *folder_of(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  char *folder = slash == NULL ? strdup(".") : strndup(path, (size_t)(slash - path) + 1);
+  char *real = folder == NULL ? NULL : realpath(folder, NULL);
+  free(folder);
+  return real;
+}
+
+/* Whether a file would be in the scene's folder, or below it. */
+static bool is_beside(const char *file, const char *scene)
+{
+  if (output_is_standard(file) || output_is_standard(scene)) return false;
+  char *folder = folder_of(file), *own = folder_of(scene);
+  const size_t length = own == NULL ? 0 : strlen(own);
+  const bool beside = folder != NULL && own != NULL && strncmp(folder, own, length) == 0 &&
+                      (folder[length] == '\0' || folder[length] == '/' || length == 1);
+  free(folder);
+  free(own);
+  return beside;
+}
+
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,
                              const struct scene *scene, const char *output)
 {
   enum status status = output_spare(command, output, output_is_standard(request->path) ? "/dev/stdin" : request->path);
+  if (status == STATUS_OK && request->untrusted && output != NULL && is_beside(output, request->path))
+    return command_usage(command, "'%s' is in the scene's folder or below it, which --untrusted forbids", output);
   for (size_t k = 0; scene != NULL && k < scene->file_count && status == STATUS_OK; k++)
     status = output_spare(command, output, scene->files[k]);
   return status;

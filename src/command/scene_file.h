@@ -8,6 +8,7 @@
 #include "base/diagnostics.h"
 #include "base/status.h"
 #include "command/command.h"
+#include "intersect/intersect.h"
 #include "language/language.h"
 #include "scene/scene.h"
 
@@ -28,6 +29,7 @@ struct scene_request {
   int frame, first_frame, last_frame; /* of an animation, or 0 */
   bool lenient;
   bool quiet; /* no warnings */
+  bool untrusted;
 };
 
 /* The largest width or height of a picture. */
@@ -52,21 +54,27 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_
     COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"),      \
     COMMAND_TRUE("lenient", 0, scene.lenient, "leave out, with warnings, what pscn does not support"),                \
     COMMAND_NUMBER("clock", scene.clock, "the value of clock in the scene", "X"),                                     \
-    COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X")
+    COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X"),                 \
+    COMMAND_TRUE("untrusted", 0, scene.untrusted, "the scene is a stranger's: it reads, takes and does little")
 #define SCENE_OPTIONS                                                    \
   SCENE_SOLVER_OPTION("instead of every solver statement of the scene"), \
     SCENE_TOLERANCE_OPTION("instead of every solver's tolerance"), SCENE_READING_OPTIONS
 enum status scene_request_take(const struct command *command, void *scene_request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 
-/* The most bytes that the scene may take: as on the command line, or a share of the machine's memory. */
+/* The most bytes that the scene may take: as on the command line, or a share of the machine's memory, or what a stranger
+ * gets. */
 size_t scene_request_memory(const struct scene_request *request);
 
 /* The folders in which included files are looked for: those of -I, those of PSCN_INCLUDE, POV-Ray's own, then NULL. The
  * caller frees the result by one free; NULL if memory is short. */
 const char **scene_request_folders(const struct scene_request *request);
 
-/* Reads the scene, from standard input if its path is "-"; the caller destroys it. On failure the errors have been
+/* Warns if there was too little memory to cut patches as finely as they ask. */
+void scene_file_warn_of_cuts(const struct command *command, const struct intersector *intersector);
+
+/* Reads the scene, from standard input if its path is "-"; the caller destroys it. From now on
+ * this thread's memory is limited to what the request allows. On failure the errors have been
  * printed and *out is NULL. It fails if standard output goes to one of the scene's files. */
 enum status scene_file_load(const struct command *command, const struct scene_request *request,
                             struct scene **out) STATUS_MUST_CHECK;
@@ -79,7 +87,8 @@ char *scene_request_text(const struct scene_request *request);
  * POV-Ray does, if the version that decides what its colours mean is missing. */
 bool scene_file_warn(const struct command *command, const struct scene *scene);
 
-/* Returns STATUS_USAGE, after printing the error, if `output` (NULL: nowhere) would overwrite a file of the scene. Ask
+/* Returns STATUS_USAGE, after printing the error, if `output` (NULL: nowhere) would overwrite a file of the scene, or is
+ * in a stranger's folder, where names may be traps. Ask
  * before reading, with NULL for the scene, and again when its included files are known. */
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,
                              const struct scene *scene, const char *output) STATUS_MUST_CHECK;

@@ -236,6 +236,7 @@ static enum status trace(const struct command *command, struct request *request)
   status = intersector_create(scene, &intersector);
   if (status == STATUS_OK) status = tracer_create(intersector, &session.tracer);
   if (status == STATUS_LIMIT) (void)command_out_of_memory(command);
+  else if (status == STATUS_OK && !request->scene.quiet) scene_file_warn_of_cuts(command, intersector);
   report.build = seconds_since(start);
   if (status == STATUS_OK) {
     start = seconds_now();

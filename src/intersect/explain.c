@@ -1,6 +1,7 @@
 /* Tells what becomes of a ray. See explain.h. */
 #include "intersect/explain.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -74,7 +75,7 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
   if (!story->solved) return;
   struct method_roots points;
   if (!story->by_solver)
-    method_find(patch->method, &planes, explainer->warmed ? &explainer->warm : NULL, &points, &story->found);
+    method_find(patch->method, &planes, INT_MAX, explainer->warmed ? &explainer->warm : NULL, &points, &story->found);
   place_points(&local, w, ray, story);
 }
 

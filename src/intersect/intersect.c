@@ -118,6 +118,8 @@ void intersector_destroy(struct intersector *intersector)
   memory_free(intersector);
 }
 
+bool intersector_cut_less(const struct intersector *intersector) { return model_cut_less(intersector->model); }
+
 void tracer_begin(const struct intersector *intersector, struct tracer *out)
 {
   *out = (struct tracer){.model = intersector->model, .kernel = intersector->kernel, .epoch = 1, .budget = RAY_BUDGET};
@@ -174,6 +176,8 @@ struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct lea
 
 void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
+void tracer_stop_at(struct tracer *tracer, const atomic_int *stop) { tracer->stop = stop; }
+
 /* Does not count the work on rays that are asked again, only their new answers. */
 static void count_again(struct tracer *tracer, const struct intersect_counts *before, uint64_t certain_now)
 {
@@ -187,7 +191,7 @@ static void ask_alone(struct tracer *tracer, unsigned unsettled, const struct ra
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
   uint64_t certain_now = 0;
-  for (; unsettled; unsettled &= unsettled - 1) {
+  for (; unsettled && !tracer_stopped(tracer); unsettled &= unsettled - 1) {
     const int k = __builtin_ctz(unsettled);
     kernel->closest(tracer, 1, &rays[k], &hits[k]);
     certain_now += hits[k].certainty == CERTAINTY_CERTAIN;
@@ -206,7 +210,7 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
   if (!kernel_for(tracer, count, rays)->occluded(tracer, count, rays, out_occluded) || count == 1) return;
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
-  for (size_t k = 0; k < count; k++)
+  for (size_t k = 0; k < count && !tracer_stopped(tracer); k++)
     if (out_occluded[k]) (void)kernel->occluded(tracer, 1, &rays[k], &out_occluded[k]);
   tracer->counts = counts;
 }

@@ -18,6 +18,7 @@
 #ifndef PSCN_INTERSECT_INTERSECT_H
 #define PSCN_INTERSECT_INTERSECT_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -108,12 +109,18 @@ enum status intersector_create_by(const struct scene *scene, const struct team *
                                   struct intersector **out) STATUS_MUST_CHECK;
 void intersector_destroy(struct intersector *intersector);
 
+/* Whether patches have fewer leaves than their `split` asks for, because memory was short. */
+bool intersector_cut_less(const struct intersector *intersector);
+
 enum status tracer_create(const struct intersector *intersector, struct tracer **out) STATUS_MUST_CHECK;
 void tracer_destroy(struct tracer *tracer);
 
 /* Forgets the warm starts of `start previous`. The renderer calls it at the start of every tile, so that a picture
  * depends neither on threads nor on the crop. */
 void tracer_forget(struct tracer *tracer);
+
+/* From when *stop is not 0 on, the tracer ends its work as soon as it can, and its answers mean nothing. Borrowed. */
+void tracer_stop_at(struct tracer *tracer, const atomic_int *stop);
 
 /* The nearest hit of each of `count` <= PACKET_SIZE rays. */
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);

@@ -215,8 +215,8 @@ static enum root_fate substitute(const struct method *method, const struct form 
   return method->polish || solves_planes(form, method, size, root->re, v) ? ROOT_OFFERED : ROOT_NO_SOLUTION;
 }
 
-void method_find(const struct method *method, const struct method_planes *planes, struct solver_warm *warm,
-                 struct method_roots *out, struct explained_roots *story)
+void method_find(const struct method *method, const struct method_planes *planes, int most_steps,
+                 struct solver_warm *warm, struct method_roots *out, struct explained_roots *story)
 {
   const struct leaf *leaf = planes->leaf;
   struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
@@ -227,7 +227,11 @@ void method_find(const struct method *method, const struct method_planes *planes
   const struct polynomial r = resultant(method, leaf, &form, c);
   struct root_set roots = {.count = 0};
   out->count = out->found = out->steps = 0;
-  if (r.degree > 0) solver_roots(&r, &method->roots, warm, &roots);
+  if (r.degree > 0) {
+    struct solver_options options = method->roots;
+    if (most_steps < options.max_iterations) options.max_iterations = most_steps > 1 ? most_steps : 1;
+    solver_roots(&r, &options, warm, &roots);
+  }
   out->found = roots.count;
   if (story) {
     story->basis = r.basis, story->degree = r.degree, story->roots = roots;

@@ -185,6 +185,9 @@ struct model {
   const struct scene *scene;
   struct arena *arena;
   double size; /* the largest coordinate of a control point */
+  /* how far a patch may be cut, and whether leaves may be kept: less than otherwise where memory is short */
+  int most_split;
+  bool never_keep;
   struct model_cut *cuts;
   struct model_patch *patches;       /* NULL if they are not kept */
   struct leaf *leaves;               /* NULL if they are not kept */
@@ -214,6 +217,9 @@ struct model {
  * memory or threads are short; *out is then NULL. */
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
+
+/* Whether some patch's method asks for more leaves than there was memory for. */
+bool model_cut_less(const struct model *model);
 
 /* The number of the plane across an axis that the patch lies in, or 0. */
 static inline uint32_t model_plane(const struct model *model, size_t patch)

@@ -82,7 +82,13 @@ struct tracer {
   struct growing hits;               /* struct hit: all lists of the last call of tracer_all */
   int budget;                        /* RAY_BUDGET; less in tests */
   struct explainer *explainer;       /* explain.c; NULL if nobody asks */
+  const atomic_int *stop;            /* tracer_stop_at; or NULL */
 };
+
+static inline bool tracer_stopped(const struct tracer *tracer)
+{
+  return tracer->stop && atomic_load_explicit(tracer->stop, memory_order_relaxed) != 0;
+}
 
 /* intersect.c: a tracer in the caller's memory, without warm starts, whatever the scene asks for. */
 void tracer_begin(const struct intersector *intersector, struct tracer *out);

@@ -78,3 +78,23 @@ char *include_path(struct arena *arena, const struct include_folders *folders, c
   }
   return path;
 }
+
+bool include_is_modest(const char *name, size_t length)
+{
+  bool modest = length > 0 && name[0] != '/';
+  for (size_t begin = 0, end; begin < length && modest; begin = end + 1) {
+    for (end = begin; end < length && name[end] != '/';) end++;
+    modest = !(end - begin == 2 && memcmp(name + begin, "..", 2) == 0);
+  }
+  return modest;
+}
+
+bool include_is_below(const struct include_folders *folders, int file)
+{
+  const struct source *scene = folders->scene;
+  const size_t length = folder_length(scene);
+  bool below = (scene->inode != 0 || length > 0) && input_is_below(file, scene->name, length);
+  for (size_t k = 0; folders->others && folders->others[k] && !below; k++)
+    below = input_is_below(file, folders->others[k], strlen(folders->others[k]));
+  return below;
+}

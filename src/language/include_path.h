@@ -23,4 +23,9 @@ struct include_folders {
 char *include_path(struct arena *arena, const struct include_folders *folders, const char *name, size_t length,
                    uint64_t *out_device, uint64_t *out_inode);
 
+/* Whether a stranger may ask for that name: it is no whole path, and no part of it is "..". Then whether the file found
+ * is, by its descriptor, in one of the folders or below it. A scene that is no file has only the folder in its name. */
+bool include_is_modest(const char *name, size_t length);
+bool include_is_below(const struct include_folders *folders, int file);
+
 #endif

@@ -3,7 +3,11 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "base/input.h"
+#include "base/memory.h"
 #include "language/camera.h"
 #include "language/expand.h"
 #include "language/settings.h"
@@ -41,6 +45,7 @@ static enum status reading_create(struct reading *r, const struct language_setti
                                 .animated = settings->last_frame > 0,
                                 .max_work = settings->max_work ? settings->max_work : MOST_WORK,
                                 .max_memory = settings->max_memory ? settings->max_memory : SIZE_MAX,
+                                .untrusted = settings->untrusted,
                                 .symbols = &r->symbols,
                                 .sources = &r->sources,
                                 .tokens = &r->tokens,
@@ -164,14 +169,17 @@ static enum status override(struct scene *scene, const struct language_settings 
   return language_set_tolerance(settings->tolerance, scene->solver_count, scene->solvers, diagnostics);
 }
 
+#define MORE_THAN_ALLOWED "reading takes more memory than is allowed; --max-memory allows more"
+
 /* Ends a reading. If it ran out of memory, this has not been reported yet. */
 static void finish(struct reading *r, enum status status)
 {
   struct diagnostics *diagnostics = r->language.diagnostics;
   if (status == STATUS_LIMIT && !r->language.limit_told) {
     diagnostics_error(diagnostics, NOWHERE, "%s",
-                      r->language.unaffordable ? "reading takes more memory than is allowed; --max-memory allows more"
-                                               : "memory is short");
+                      r->language.unaffordable || memory_limit_reached()
+                        ? "reading takes more memory than is allowed; --max-memory allows more"
+                        : "memory is short");
   }
   reading_destroy(r);
 }
@@ -199,15 +207,32 @@ bool language_is_name(const char *name, size_t length)
          words_token(name, length) == PSCN_TOKEN_WORD;
 }
 
+/* The link to another folder's file that a stranger may have uploaded is no scene. */
+static enum status read_scene(const char *path, bool untrusted, struct source **out, const char **out_reason)
+{
+  struct stat info;
+  const char *slash = strrchr(path, '/');
+  const int file = input_open(path, INPUT_FILE_OR_PIPE, out_reason);
+  if (file < 0) return STATUS_FILE;
+  if (untrusted && fstat(file, &info) == 0 && S_ISREG(info.st_mode) &&
+      !input_is_below(file, path, slash == NULL ? 0 : (size_t)(slash - path) + 1)) {
+    *out_reason = "it is a link to a file elsewhere, which --untrusted forbids";
+    (void)close(file);
+    return STATUS_FILE;
+  }
+  return source_read_open(path, file, out, out_reason);
+}
+
 enum status language_load(const char *path, const struct language_settings *settings, struct diagnostics *diagnostics,
                           struct scene **out_scene)
 {
   *out_scene = NULL;
   struct source *source;
   const char *reason;
-  const enum status status = source_read(path, INPUT_FILE_OR_PIPE, &source, &reason);
+  const enum status status = read_scene(path, settings->untrusted, &source, &reason);
   if (status == STATUS_OK) return load(source, settings, diagnostics, out_scene);
-  diagnostics_error(diagnostics, NOWHERE, "%s: %s", path, reason);
+  if (status == STATUS_LIMIT && memory_limit_reached()) diagnostics_error(diagnostics, NOWHERE, MORE_THAN_ALLOWED);
+  else diagnostics_error(diagnostics, NOWHERE, "%s: %s", path, reason);
   return status;
 }
 

@@ -34,8 +34,13 @@ struct language_settings {
   const struct language_number *numbers; /* number_count names declared beforehand */
   size_t number_count;
   size_t max_work;   /* tokens that loops and macros may read; or 0: a second's work */
+  bool untrusted;    /* --untrusted: see below */
   size_t max_memory; /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
 };
+
+/* The scene of a stranger includes only files in its folder, in those given, and below them, wherever links lead; a text
+ * that is no file has no folder unless its name has one. It may not say `solver`, and has at most this many lights. */
+enum { UNTRUSTED_LIGHTS = 64 };
 
 /* Whether a scene can declare that name: a word reserved neither by the language nor by POV-Ray. */
 bool language_is_name(const char *name, size_t length);

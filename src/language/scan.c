@@ -17,7 +17,7 @@ void scan_numbers(struct scan *scan, const char *text, size_t length, int count)
     size_t used = 0;
     while (text[at] == '<' || text[at] == ',' || (text[at] <= ' ' && text[at] > 0)) at++;
     const enum number_kind kind = number_read(text + at, length - at, &scan->number[k], &used);
-    if ((kind == NUMBER_OVERFLOW || !number_in_range(&scan->number[k])) && !scan->too_large) {
+    if ((kind == NUMBER_OVERFLOW || fabs(scan->number[k]) > NUMBER_LARGEST) && !scan->too_large) {
       scan->too_large = true;
       scan->too_large_begin = scan->begin + at;
       scan->too_large_end = scan->too_large_begin + used;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "language/language.h"
 #include "language/sources.h"
 #include "scene/gamma.h"
 
@@ -101,7 +102,8 @@ void light_begin(struct language *language, struct span place)
   light->transform = transform_identity();
   *settings->lights_end = settings->light = light;
   settings->lights_end = &light->next;
-  settings->light_count++;
+  if (++settings->light_count > UNTRUSTED_LIGHTS && language->untrusted)
+    language_limit(language, place, "the scene has more than 64 lights (--untrusted)");
 }
 
 void light_value(struct language *language, const struct value *value)

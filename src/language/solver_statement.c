@@ -28,6 +28,7 @@ static void tell_unknown(struct language *language, const char *what, const stru
 void solver_begin(struct language *language, struct span place)
 {
   const struct name name = sources_name(language, place);
+  if (language->untrusted) language_error(language, place, "a scene may not choose a solver (--untrusted)");
   const struct solver *solver = solver_find(name.text, name.length);
   if (!solver) {
     const char *names[MOST_NAMES];

@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "language/include_path.h"
@@ -298,6 +299,23 @@ static const struct source *scene_source(const struct sources *sources)
   return frame->source;
 }
 
+/* Says as little of a file as if it were not there. */
+static void tell_not_below(struct language *language, struct span place)
+{
+  language_tell(language, place, "there is no such file below the scene's folder or another allowed one (--untrusted)");
+}
+
+/* Reads the file, of a stranger's scene only if it is in these folders or below them. */
+static enum status read_file(const char *path, const struct include_folders *folders, struct source **out,
+                             const char **out_reason)
+{
+  const int file = input_open(path, INPUT_FILE, out_reason);
+  if (file < 0) return STATUS_FILE;
+  if (!folders || include_is_below(folders, file)) return source_read_open(path, file, out, out_reason);
+  (void)close(file);
+  return STATUS_FILE;
+}
+
 /* Reads the file named at `place`, quotes included. Returns NULL after reporting an error. */
 static struct source *read_included(struct language *language, struct span place)
 {
@@ -312,6 +330,10 @@ static struct source *read_included(struct language *language, struct span place
     language_tell(language, place, "a file name holds no quote");
     return NULL;
   }
+  if (language->untrusted && !include_is_modest(name, length)) {
+    tell_not_below(language, place);
+    return NULL;
+  }
   uint64_t device, inode;
   const struct include_folders folders = {scene_source(language->sources), language->sources->frame->source,
                                           language->sources->folders};
@@ -324,13 +346,19 @@ static struct source *read_included(struct language *language, struct span place
   const struct source *known = known_file(language, device, inode);
   enum status status = STATUS_OK;
   if (known) source = source_share(known, path);
-  else status = source_read(path, INPUT_FILE, &source, &reason);
+  else status = read_file(path, language->untrusted ? &folders : NULL, &source, &reason);
+  if (status == STATUS_FILE && language->untrusted) {
+    tell_not_below(language, place);
+    return NULL;
+  }
   if (status == STATUS_FILE) {
     language_tell(language, place, "cannot include '%.300s': %s", path, reason);
     return NULL;
   }
   if (!source) {
-    language_limit(language, place, known ? "memory is short" : reason);
+    if (memory_limit_reached()) reason = "reading takes more memory than is allowed; --max-memory allows more";
+    else if (known) reason = "memory is short";
+    language_limit(language, place, reason);
     return NULL;
   }
   if (is_open(language, source)) {

@@ -62,6 +62,7 @@ struct language {
   struct arena *arena;                    /* for what is needed only while reading */
   size_t memory_bytes, max_memory;        /* in use while reading; allowed */
   bool unaffordable;                      /* more was needed */
+  bool untrusted;                         /* settings.untrusted */
   bool ended_early;                       /* out of memory, or a stated limit: STATUS_LIMIT */
   bool limit_told;                        /* it was a stated limit, which is reported */
   struct span letters;                    /* the last word reported for its letters */

@@ -35,7 +35,7 @@
  * than that solver's errors, any one may be the answer, and not the same one in every call.)
  *
  * The numbers of scenes and rays are at most 1e100, or they are refused: those of a text, control points, origins and
- * directions, but not t_min and t_max. Numbers below 1e-100 are read as 0.
+ * directions, but not t_min and t_max. Coordinates below 1e-100 are read as 0.
  *
  * C11 or later, or C++. Link with -lpscn; the static library also needs -lm. `pkg-config pscn` and CMake's
  * find_package(pscn), with the targets pscn::pscn and pscn::static, know where both are.
@@ -113,19 +113,25 @@ struct pscn_options {
                          statement of the scene. NULL: as the scene says. `start previous` means `start cold` here,
                          because with it an answer would depend on the ray before */
   double tolerance;   /* replaces every solver's tolerance; 0: as those say */
-  size_t max_memory;  /* limit in bytes for the text and the patches, as estimated before the scene is built: 1500 for a
-                         patch of a text, 416 for one of control points. The scene itself takes more. 0: no limit */
+  size_t max_memory;  /* limit in bytes on what the scene takes; 0: no limit. Where memory is short, patches are cut
+                         into fewer leaves. With hooks, which can limit themselves, only an estimate is limited: 1500
+                         bytes for a patch of a text, 416 for one of control points */
   const char *const *folders;        /* more folders to search for included files, besides the text's own, ended by
                                         NULL; or NULL */
   const struct pscn_number *numbers; /* number_count of them */
   size_t number_count;
   int image_width, image_height; /* the values of these words in the text; 0: 800 and 600 */
   struct pscn_memory memory;
+  int32_t
+    untrusted; /* 1: the text is a stranger's. It includes only files in its folder (of a text: that in its name, if
+                        any) and in `folders`, or below them, wherever links lead. It may not say `solver`, and has at
+                        most 64 lights. If max_memory is 0, it is 256 MB */
+  int32_t reserved; /* 0 */
 };
 
-#define PSCN_OPTIONS                                                             \
-  {                                                                              \
-    sizeof(struct pscn_options), NULL, 0, 0, NULL, NULL, 0, 0, 0, { NULL, NULL } \
+#define PSCN_OPTIONS                                                                 \
+  {                                                                                  \
+    sizeof(struct pscn_options), NULL, 0, 0, NULL, NULL, 0, 0, 0, {NULL, NULL}, 0, 0 \
   }
 
 /* Each function builds a scene and writes it to *out, even when it fails: such a scene answers no rays, but holds the

@@ -115,6 +115,8 @@ static enum pscn_status wrong(struct pscn_scene *scene, const char *text)
   return PSCN_USAGE;
 }
 
+#define MEMORY_OF_STRANGER ((size_t)256 << 20)
+
 /* The caller's options as this version knows them. Shorter ones, of an older version, ask for nothing more; longer
  * ones, of a newer one, must not. A size that ends within a pointer is refused. */
 static bool take_options(const struct pscn_options *options, struct pscn_options *out)
@@ -126,7 +128,8 @@ static bool take_options(const struct pscn_options *options, struct pscn_options
   memcpy(out, options, options->size < known ? options->size : known);
   for (size_t k = known; k < options->size; k++)
     if (((const unsigned char *)options)[k]) return false;
-  return true;
+  if (out->untrusted && out->max_memory == 0) out->max_memory = MEMORY_OF_STRANGER;
+  return out->reserved == 0 && (out->untrusted == 0 || out->untrusted == 1);
 }
 
 static enum pscn_status language_options(struct pscn_scene *scene, const struct pscn_options *options,
@@ -154,6 +157,7 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
                                     .folders = options->folders,
                                     .numbers = numbers,
                                     .number_count = options->number_count,
+                                    .untrusted = options->untrusted != 0,
                                     .max_memory = options->max_memory};
   return PSCN_OK;
 }
@@ -233,16 +237,21 @@ static enum pscn_status build(struct pscn_scene *scene, const struct origin *ori
   if (status == PSCN_OK && origin->points) status = add_points(scene, origin->points, options.max_memory);
   if (status != PSCN_OK) return status;
   status = (enum pscn_status)intersector_create(scene->scene, &scene->intersector);
+  if (status == PSCN_LIMIT && memory_limit_reached())
+    diagnostics_error(diagnostics, NOWHERE, "the scene takes more memory than max_memory allows");
+  if (status == PSCN_OK && intersector_cut_less(scene->intersector))
+    diagnostics_warning(diagnostics, NOWHERE, "memory is short: patches have fewer leaves than 'split' says");
   return status == PSCN_USAGE ? wrong(scene, "PSCN_KERNEL asks for what this processor has not") : status;
 }
 
 static enum pscn_status create(const struct origin *origin, const struct pscn_options *options, struct pscn_scene **out)
 {
   struct memory_hooks hooks = {NULL, NULL};
-  struct pscn_options known;
+  struct pscn_options known = {.max_memory = 0};
   if (!out) return PSCN_USAGE;
   if (take_options(options, &known)) hooks = (struct memory_hooks){known.memory.resize, known.memory.context};
   const struct memory_hooks before = memory_use(hooks);
+  struct memory_limit limit = {.most = known.max_memory}, *const limit_before = memory_limit_use(&limit);
   struct calm calm;
   calm_begin(&calm);
   struct pscn_scene *scene = memory_alloc(1, sizeof *scene);
@@ -259,6 +268,7 @@ static enum pscn_status create(const struct origin *origin, const struct pscn_op
     join_messages(scene);
   }
   calm_end(&calm);
+  (void)memory_limit_use(limit_before);
   (void)memory_use(before);
   *out = scene;
   return scene ? scene->status : PSCN_LIMIT;

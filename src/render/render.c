@@ -175,12 +175,13 @@ static void add_counts(struct intersect_counts *sum, const struct intersect_coun
 
 /* Makes a tracer for each worker, and one of the certified scene if there is one. */
 static enum status workers_create(struct worker workers[], size_t count, const struct intersector *intersector,
-                                  const struct intersector *certified)
+                                  const struct intersector *certified, const atomic_int *stop)
 {
   enum status status = STATUS_OK;
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     status = tracer_create(intersector, &workers[k].tracer);
     if (status == STATUS_OK && certified != NULL) status = tracer_create(certified, &workers[k].certified);
+    if (status == STATUS_OK) tracer_stop_at(workers[k].tracer, stop);
   }
   return status;
 }
@@ -224,7 +225,7 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   if (workers == NULL) status = STATUS_LIMIT;
   if (status == STATUS_OK && channel_list_has(&options->channels, CHANNEL_DEVIATION))
     status = certified_create(scene, &team, &certified);
-  if (status == STATUS_OK) status = workers_create(workers, count, intersector, certified.intersector);
+  if (status == STATUS_OK) status = workers_create(workers, count, intersector, certified.intersector, watch->stop);
   if (status == STATUS_OK) status = crew_synchronise(&crew);
   if (status == STATUS_OK) {
     status = run_crew(&crew, count, start);

@@ -9,6 +9,7 @@
 static void *run(void *argument)
 {
   struct thread *thread = argument;
+  (void)memory_limit_use(thread->limit);
   thread->status = thread->work(thread->context, thread->worker);
   return NULL;
 }
@@ -26,7 +27,7 @@ size_t threads_start(struct thread threads[], size_t first, size_t count, team_w
   if (ready && stack < LEAST_STACK) ready = pthread_attr_setstacksize(&attributes, LEAST_STACK) == 0;
   for (; ready && started < count; started++) {
     struct thread *thread = &threads[started];
-    *thread = (struct thread){.work = work, .context = context, .worker = first + started};
+    *thread = (struct thread){.work = work, .context = context, .limit = memory_limit_now(), .worker = first + started};
     if (pthread_create(&thread->id, &attributes, run, thread) != 0) break;
   }
   (void)pthread_attr_destroy(&attributes);

@@ -13,6 +13,7 @@ struct thread {
   pthread_t id;
   team_work *work;
   void *context;
+  struct memory_limit *limit; /* that of the thread that starts it */
   size_t worker;
   enum status status;
 };

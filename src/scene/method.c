@@ -86,7 +86,6 @@ static const char *const split_words[] = {"auto", NULL};
 #define MAX_TOLERANCE 1.0
 #define MAX_ITERATIONS 10000
 #define MAX_RESIDUAL 1.0 /* relative to the largest coefficient, which no value in [0,1]^2 exceeds */
-#define MAX_SPLIT 64
 
 static const struct method_item items[] = {
   {"tolerance", "a root has converged when a step is below this (eps of eq 10), relative; `form paper`: absolute",
@@ -106,8 +105,8 @@ static const struct method_item items[] = {
    METHOD_ITEM_KEYWORD, off_on, 0, 1, set_polish, get_polish},
   {"residual", "polish off: both plane polynomials are below this at an answer, relative; 1 = whatever they are",
    METHOD_ITEM_NUMBER, residual_words, DBL_MIN, MAX_RESIDUAL, set_residual, get_residual},
-  {"split", "each patch is cut into N x N leaves; 1 = whole patches", METHOD_ITEM_INTEGER, split_words, 1, MAX_SPLIT,
-   set_split, get_split},
+  {"split", "each patch is cut into N x N leaves; 1 = whole patches", METHOD_ITEM_INTEGER, split_words, 1,
+   METHOD_MAX_SPLIT, set_split, get_split},
   {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", METHOD_ITEM_KEYWORD, radii_words,
    0, 1, set_radii, get_radii},
   {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", METHOD_ITEM_KEYWORD, stop_words,

@@ -12,6 +12,8 @@
 enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
 enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
 
+enum { METHOD_MAX_SPLIT = 64 };
+
 /* Set by method_default, then changed item by item. */
 struct method {
   struct solver_options roots; /* the solver and its own choices */
@@ -20,8 +22,8 @@ struct method {
   enum back_substitution back_substitution;
   bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
   double residual; /* polish off: how far an answer may be from a solution of eq 3, see intersect/method.c; 0 = auto */
-  int split;       /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
-  bool form_said;  /* a choice of iteration was set by name; otherwise they follow from the rest, see method.c */
+  int split;      /* N <= METHOD_MAX_SPLIT: each patch is cut into N x N leaves; 0 = auto; 1 = whole, as in the paper */
+  bool form_said; /* a choice of iteration was set by name; otherwise they follow from the rest, see method.c */
   bool basis_said; /* the basis was set; otherwise the caller uses what suits it */
 };
 

@@ -16,7 +16,8 @@ try pscn folder/nosuch
 for option in +W320 +H240 +Iflat.pscn +Oout.png -D +A0.3 +KFF10 -w320 +FN16 +SC0.2; do
   try pscn $option flat.pscn
 done
-try pscn render flat.pscn -q +C
+try pscn +W320 +H240 -D -KFF10 +A0.3 flat.pscn -q
+try pscn roots 1 -3 2
 try pscn compare a b -A
 try pscn -V
 try pscn -v

@@ -14,7 +14,7 @@ done
 try pscn dump many.pscn --max-memory 1M
 # After errors of the text, too, the reason of the end is reported.
 head -c 3M /dev/zero | tr '\0' ' ' >blank.inc
-printf 'foo\n#include "blank.inc"\n' >word.pscn
+printf 'camera { loaction 1 }\n#include "blank.inc"\n' >word.pscn
 try pscn dump word.pscn --max-memory 1M
 sed '/A3 = /,$d' many.pscn >hundred.pscn
 echo 'object { A2 }' >>hundred.pscn
@@ -24,3 +24,29 @@ try pscn dump <(cat hundred.pscn) | grep -c bicubic_patch
 cat hundred.pscn | try pscn dump /dev/stdin | grep -c bicubic_patch
 try pscn dump /dev/zero
 try pscn dump hundred.pscn --solver '#include "many.pscn"'
+# A patch cut 64 times a side, ten thousand times in one place: --max-memory holds, and the answer is the same.
+bomb() { # N
+  echo '#declare A0 = bicubic_patch { type 0'
+  for u in 0 1 2 3; do for v in 0 1 2 3; do echo "<$u,$v,0>"; done; done
+  echo 'solver bernstein { split 64 } }'
+  for n in 1 2 3 4; do echo "#declare A$n = union { $(for k in {1..10}; do echo "object { A$((n - 1)) }"; done) }"; done
+  echo "object { A$1 }"
+}
+# Prints the answer to a ray, and the most MB that the process has taken, rounded up to the next power of two.
+asked() {
+  local answer peak
+  coproc pscn trace "$@" --certainty
+  local process=$COPROC_PID out=${COPROC[1]}
+  echo '1.5 0.75 -5 0 0 1' >&"$out"
+  read -r -t 100 answer <&"${COPROC[0]}"
+  peak=$(sed -n 's/^VmHWM:[[:space:]]*\([0-9]*\) kB/\1/p' /proc/$process/status)
+  exec {out}>&-
+  wait $process
+  for ((mb = 1; mb * 1024 < peak; mb *= 2)); do :; done
+  echo "$answer, $mb MB"
+}
+bomb 4 >bomb.pscn
+bomb 0 >single.pscn
+asked single.pscn --max-memory 40M
+asked bomb.pscn --max-memory 40M
+try pscn trace bomb.pscn --max-memory 1M </dev/null

@@ -1,6 +1,7 @@
 /* Aberth's method on ray-patch pairs of the teapot (whole patches), against all roots of the reference: how many of the
  * true (u,v) in [0,1]^2 it finds to 1e-11 with `polish off`, in Bernstein form; and that with `polish on` the nearest
  * hit is always right. The paper's own form is measured too, and printed. */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -74,7 +75,7 @@ static void find_roots(struct target *target, const struct ray *ray, struct meth
   double w[16];
   local_ray_make(&model->patches[0], ray, &local);
   local_ray_nets(&local, leaf->form != NULL ? leaf->form->x : leaf->x, planes.a, planes.b, w);
-  method_find(model->patches[0].method, &planes, NULL, out, NULL);
+  method_find(model->patches[0].method, &planes, INT_MAX, NULL, out, NULL);
 }
 
 static bool among(const struct method_roots *found, const struct search_root *root)

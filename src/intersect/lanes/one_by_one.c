@@ -2,6 +2,8 @@
  *
  * Compiled once per instruction set.
  */
+#include <limits.h>
+
 #include "intersect/lanes/nearest.h"
 #include "intersect/method.h"
 
@@ -9,19 +11,26 @@
  * form takes thousands of steps for a leaf. */
 #define BARE_COST 0x1p-4
 
-/* Finds the roots on one lane. A step of one root has some products for each coefficient of r. */
+/* Finds the roots on one lane, with as many steps as the budget has left. A step of one root has some products for each
+ * coefficient of r. */
 static void lane_solve(const struct packet *p, const struct candidate *it, unsigned lane, struct method_roots *out)
 {
   const struct method *method = it->patch->method;
   struct method_planes planes = {.leaf = it->leaf};
+  const int64_t left = p->postponed->left[lane];
+  out->count = 0;
+  if (left < 0 || tracer_stopped(p->tracer)) return;
   for (int i = 0; i <= it->leaf->kept_degree; i++)
     for (int j = 0; j <= it->leaf->eliminated_degree; j++)
       planes.a[4 * i + j] = it->fa[4 * i + j][lane], planes.b[4 * i + j] = it->fb[4 * i + j][lane];
-  method_find(method, &planes, tracer_warm(p->tracer, method, it->number), out, explain_roots(p->tracer));
+  const double degree = 2 * it->leaf->kept_degree * it->leaf->eliminated_degree,
+               step = degree * (method->polish ? 1.0 : BARE_COST) / PRODUCTS_A_UNIT; /* its cost */
+  const double most = (double)left / (step * degree);                                /* of each root */
+  method_find(method, &planes, most < INT_MAX ? (int)most : INT_MAX, tracer_warm(p->tracer, method, it->number), out,
+              explain_roots(p->tracer));
   p->tracer->counts.roots_found += (unsigned)out->found;
-  const double products = (double)(2 * it->leaf->kept_degree * it->leaf->eliminated_degree) * out->steps;
   lane_mask cost = {0};
-  cost[lane] = (int64_t)(products * (method->polish ? 1.0 : BARE_COST) / PRODUCTS_A_UNIT);
+  cost[lane] = (int64_t)(step * out->steps);
   packet_charge(p, cost);
 }
 

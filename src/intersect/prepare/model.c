@@ -96,7 +96,7 @@ enum status model_create_object(const struct scene *nets, const struct team *tea
 {
   struct model *model = model_begin(nets);
   if (!model) return STATUS_LIMIT;
-  model->error = object->error, model->twin = object->twin;
+  model->error = object->error, model->twin = object->twin, model->most_split = METHOD_MAX_SPLIT;
   const enum status status = hierarchy_make(model, team, limit, true, SIZE_MAX);
   model->scene = NULL;
   if (status == STATUS_OK) object->model = model;
@@ -131,6 +131,14 @@ static enum status mark_planes(struct model *model)
   return status;
 }
 
+/* Lowers the limit to `most` leaves a side. */
+static void limit_to(int most, struct split_limit *limit)
+{
+  if (limit->any > most) limit->any = most;
+  if (limit->bent > most) limit->bent = most;
+  limit->leaves = real_min(limit->leaves, most * most);
+}
+
 static enum status prepare(struct model *model, const struct team *team)
 {
   const struct scene *scene = model->scene;
@@ -149,27 +157,48 @@ static enum status prepare(struct model *model, const struct team *team)
   }
   struct split_limit limit = {AUTO_TURN, COARSE_TURNS, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
                               most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX), most_leaves(own, AUTO_LEAVES_MAX)};
-  const bool keep = own <= KEPT_PATCHES_MAX;
+  const bool keep = own <= KEPT_PATCHES_MAX && !model->never_keep;
   if (!keep) {
     limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, OBJECT_LEAVES_MAX);
     limit.leaves = most_leaves(own, OBJECT_LEAVES_MAX);
   }
+  limit_to(model->most_split, &limit);
   status = copies_prepare(model, team, &limit);
   if (!keep)
     limit = (struct split_limit){
       BOXES_TURN, {BOXES_TURN, BOXES_TURN}, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX * BOXES_SPLIT_MAX};
+  limit_to(model->most_split, &limit);
   return status == STATUS_OK ? hierarchy_make(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
 }
 
-enum status model_create(const struct scene *scene, const struct team *team, struct model **out)
+/* The model with leaves no finer than `most_split`. */
+static enum status create_within(const struct scene *scene, const struct team *team, int most_split, bool never_keep,
+                                 struct model **out)
 {
-  *out = NULL;
   struct model *model = model_begin(scene);
   if (!model) return STATUS_LIMIT;
+  model->most_split = most_split, model->never_keep = never_keep;
   const enum status status = prepare(model, team);
   if (status == STATUS_OK) *out = model;
   else model_destroy(model);
   return status;
+}
+
+/* If memory is short, leaves are not kept; if it still is, patches are cut less and less. */
+enum status model_create(const struct scene *scene, const struct team *team, struct model **out)
+{
+  *out = NULL;
+  enum status status = create_within(scene, team, METHOD_MAX_SPLIT, false, out);
+  for (int most = METHOD_MAX_SPLIT; most > 0 && status == STATUS_LIMIT; most /= 2)
+    status = create_within(scene, team, most, true, out);
+  return status;
+}
+
+bool model_cut_less(const struct model *model)
+{
+  bool less = false;
+  for (size_t k = 0; k < model->scene->solver_count; k++) less |= model->scene->solvers[k].split > model->most_split;
+  return less;
 }
 
 struct model_patch *model_patch_at(const struct model *model, uint32_t index, struct patch_room *room)

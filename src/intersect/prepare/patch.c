@@ -219,11 +219,12 @@ void patch_make_first(const struct model *model, uint32_t index, const struct sp
     int m, n;
     patch_bidegree(out->x, DEGREE_SLACK * real_max(1, largest / out->scale), &m, &n);
     cut->m = (uint8_t)m, cut->n = (uint8_t)n;
+    const int fixed = out->method->split < model->most_split ? out->method->split : model->most_split;
     double lo[3], hi[3];
     points_range((const double(*)[4][3])model->scene->patches[index].P, lo, hi);
     /* The leaves of a point are all at one place: a ray would be tried on each of them. */
     if (lo[0] == hi[0] && lo[1] == hi[1] && lo[2] == hi[2]) cut->split[0] = cut->split[1] = 1;
-    else if (out->method->split > 0) cut->split[0] = cut->split[1] = (uint16_t)out->method->split;
+    else if (fixed > 0) cut->split[0] = cut->split[1] = (uint16_t)fixed;
     else auto_split(out, limit, cut->split);
   }
   out->cut = *cut;
