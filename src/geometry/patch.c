@@ -102,18 +102,6 @@ void patch_reduce(double net[4][4], int m, int n, double out[4][4])
   }
 }
 
-void patch_bends(double n[4][4], double out[3])
-{
-  out[0] = out[1] = out[2] = 0;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      if (i < 2) out[0] = real_max(out[0], 6 * fabs(n[i + 2][j] - 2 * n[i + 1][j] + n[i][j]));
-      if (i < 3 && j < 3) out[1] = real_max(out[1], 9 * fabs(n[i + 1][j + 1] - n[i + 1][j] - n[i][j + 1] + n[i][j]));
-      if (j < 2) out[2] = real_max(out[2], 6 * fabs(n[i][j + 2] - 2 * n[i][j + 1] + n[i][j]));
-    }
-  }
-}
-
 /* The Bernstein polynomials of degree n = 1, 2 or 3 at t. */
 static void bernstein(int n, double t, double w[4])
 {

@@ -26,9 +26,6 @@ void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n);
  * control net of that bidegree. out may be net. */
 void patch_reduce(double net[4][4], int m, int n, double out[4][4]);
 
-/* Bounds on the net's second derivatives uu, uv and vv on [0,1]^2. */
-void patch_bends(double net[4][4], double out[3]);
-
 /* A unit normal at (u,v): Su x Sv; or, if that vanishes or is no longer than `rounded`, what rounding the control
  * points may make of it, its limit along the way into the patch. False if the surface has none (a patch collapsed to a
  * curve or point); out is then zero. */

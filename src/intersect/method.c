@@ -170,13 +170,13 @@ static double largest(const double net[16], int m, int n)
 /* r of the leaf's form, without its exact roots at the ends. Its coefficients are taken as they are: bounds on their
  * errors known beforehand (resultant_error.h) can exceed them all where the ray runs along the axis of a height field,
  * and then nothing would count as a root. */
-static struct polynomial resultant(const struct method *method, const struct leaf *leaf, const struct form *form,
+static struct polynomial resultant(const struct method *method, const uint8_t zeros[2], const struct form *form,
                                    double c[bezout_MAX_DEGREE + 1])
 {
   if (method->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form->m, form->n, form->A, form->B, c);
   else bezout_determinant(form->m, form->n, form->A, form->B, c);
   struct polynomial r = {2 * form->m * form->n, method->basis, c, NULL};
-  if (method->basis == BASIS_BERNSTEIN) r.c = c + leaf->zeros[0], r.degree -= leaf->zeros[0] + leaf->zeros[1];
+  if (method->basis == BASIS_BERNSTEIN) r.c = c + zeros[0], r.degree -= zeros[0] + zeros[1];
   return r;
 }
 
@@ -218,13 +218,13 @@ static enum root_fate substitute(const struct method *method, const struct form 
 void method_find(const struct method *method, const struct method_planes *planes, int most_steps,
                  struct solver_warm *warm, struct method_roots *out, struct explained_roots *story)
 {
-  const struct leaf *leaf = planes->leaf;
-  struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
+  const struct leaf_form *of = planes->form;
+  struct form form = {of->kept_degree, of->eliminated_degree, {0}, {0}};
   form_net(form.m, form.n, method->basis, planes->a, form.A);
   form_net(form.m, form.n, method->basis, planes->b, form.B);
   const double size[2] = {largest(planes->a, form.m, form.n), largest(planes->b, form.m, form.n)};
   double c[bezout_MAX_DEGREE + 1];
-  const struct polynomial r = resultant(method, leaf, &form, c);
+  const struct polynomial r = resultant(method, of->zeros, &form, c);
   struct root_set roots = {.count = 0};
   out->count = out->found = out->steps = 0;
   if (r.degree > 0) {
@@ -243,7 +243,7 @@ void method_find(const struct method *method, const struct method_planes *planes
     const enum root_fate fate = substitute(method, &form, size, &r, &roots.root[k], &other);
     if (story) story->fate[k] = fate, story->other[k] = other;
     if (fate != ROOT_OFFERED) continue;
-    out->u[out->count] = leaf->v_kept ? other : roots.root[k].re;
-    out->v[out->count++] = leaf->v_kept ? roots.root[k].re : other;
+    out->u[out->count] = of->v_kept ? other : roots.root[k].re;
+    out->v[out->count++] = of->v_kept ? roots.root[k].re : other;
   }
 }

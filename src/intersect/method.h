@@ -9,6 +9,7 @@
 #define PSCN_INTERSECT_METHOD_H
 
 #include "intersect/explain.h"
+#include "intersect/prepare/leaf.h"
 #include "intersect/tracer.h"
 
 enum { METHOD_MAX_ROOTS = POLYNOMIAL_MAX_DEGREE };
@@ -22,7 +23,7 @@ struct method_roots {
 
 /* A leaf's polynomials on a ray. */
 struct method_planes {
-  const struct leaf *leaf;
+  const struct leaf_form *form;
   double a[16], b[16]; /* the nets of its form, a[4 * i + j], i of the kept parameter */
 };
 

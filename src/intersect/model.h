@@ -4,10 +4,10 @@
  *
  * Every patch has its own frame: world = center + scale * local, where scale is a power of two and center has few bits,
  * so that |local| <= 1 and the conversion rounds almost nothing. All algebra is done in local coordinates, so scale and
- * offset of a scene cost no accuracy. A patch is cut into N x N leaves, a slender one along its long side only. The
- * hierarchy holds leaves, and rays are tried on leaves. Where leaves for all patches would be too many, copies of a
- * declared object share the object's (copies.h). If there are still too many, neither patches nor leaves are kept: they
- * are made anew from the scene whenever a ray comes to one, with the same bits every time.
+ * offset of a scene cost no accuracy. A patch is cut into leaves (prepare/cut.h). The
+ * hierarchy holds leaves, and rays are tried on leaves. Where there are many patches, copies of a declared object share
+ * the object's leaves (copies.h). If there are still too many, neither patches nor leaves are kept: they are made anew
+ * from the scene whenever a ray comes to one, with the same bits every time.
  */
 #ifndef PSCN_INTERSECT_MODEL_H
 #define PSCN_INTERSECT_MODEL_H
@@ -33,8 +33,7 @@
 struct model_cut {
   double loose;      /* how far off the patch, in the scene, an object's leaves may meet a ray; 0 where not copied */
   uint16_t split[2]; /* cut into split[0] x split[1] leaves, along u and v */
-  uint8_t m, n;      /* true bidegree in u, v */
-  bool copied;       /* its leaves are those of the object it is copied from; m and n then mean nothing */
+  bool copied;       /* its leaves are those of the object it is copied from */
 };
 
 struct model_patch {
@@ -46,14 +45,6 @@ struct model_patch {
   struct model_cut cut;
   enum solver_lanes lanes; /* how its method, polished, works on lanes; NONE: on one ray after the other */
   const struct method *method;
-};
-
-/* The polynomials a resultant is made of: the leaf's net at its true degree, the kept parameter first. */
-struct leaf_form {
-  double x[3][16]; /* x[coordinate][4 * i + j], i = 0..degree kept, j = 0..degree eliminated; zero beyond */
-  double size;     /* bound on |x| and 1: a net of lower degree may reach beyond the leaf's */
-  /* bound on the distance of any coordinate from the leaf's, on the leaf: the degree is true only up to rounding */
-  double excess;
 };
 
 /* A leaf as x = c + s A + t B + st C + rest(s,t), s = u - 1/2 and t = v - 1/2: the Taylor polynomial about its middle.
@@ -97,18 +88,14 @@ struct leaf {
   struct leaf_slab slab[3];
   uint32_t patch;
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and the same in v */
-  uint8_t kept_degree, eliminated_degree;
-  bool v_kept;      /* the form keeps v and eliminates u */
-  bool has_quadric; /* a leaf that is not kept gets its quadric on first use */
-  uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
-  uint8_t pole;     /* 1 + the first border (geometry/edges.h) that is a pole, 0: none */
+  bool has_quadric;            /* a leaf that is not kept gets its quadric on first use */
+  uint8_t pole;                /* 1 + the first border (geometry/edges.h) that is a pole, 0: none */
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
   struct leaf_parts parts;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   struct leaf_quadric quadric;
-  const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
 };
 
 /* A leaf's slabs in the frame of its tree, which the walk tests before it reads the leaf: floats, one line of the
@@ -119,18 +106,13 @@ struct oriented_box {
   uint32_t patch; /* the leaf's, from which data is needed at the same time */
 };
 
-/* The boxes along a node's leaf children, side by side; for its other children, ones that hold everything. */
-struct oriented_four {
-  float g[3][3][BVH_WIDTH], offset[3][BVH_WIDTH], half[3][BVH_WIDTH];
-};
-
 /* Which part of which patch a leaf is. */
 struct leaf_place {
   uint32_t patch;
   uint16_t column_u, column_v;
 };
 
-/* Room for a patch that is not kept, and for such a leaf with all that belongs to it. */
+/* Room for a patch that is not kept, and for such a leaf. */
 struct patch_room {
   struct model_patch patch;
   double rest[3][4][4];
@@ -139,7 +121,6 @@ struct patch_room {
 struct leaf_room {
   struct patch_room of;
   struct leaf leaf;
-  struct leaf_form form;
 };
 
 /* A declared object whose leaves serve its copies. */
@@ -162,23 +143,14 @@ struct model_copy {
 /* From this many surfaces on that a line crosses, nodes may have the boxes along their leaves side by side. */
 enum { MANY_CROSSINGS = 4 };
 
-/* How deep frames may nest, since the walk recurses into them. Boxes of still smaller things exclude fewer rays, but
- * nothing is missed; no scene has sizes in one place that fall by 2^8 this many times. */
-enum { MODEL_FRAMES = 48 };
-
 /* A hierarchy in its own frame: (world - origin)/frame, all within about [-1,1], frame a power of two. Its boxes are
  * floats, which resolve little of what is far smaller than the frame. So small boxes that lie together get their own
- * tree if others are far away or far larger. Box k < leaf_count of the hierarchy is a leaf's; the copies' follow, then
- * the trees in this one. */
+ * tree if others are far away or far larger. Box k < leaf_count of the hierarchy is a leaf's; the copies' follow, and in
+ * the trees of all the model the inner trees'. */
 struct model_tree {
   double origin[3], frame;
   struct bvh bvh;
-  struct model_tree *inner; /* in the arena */
-  size_t inner_count;
   double crossings; /* how many surfaces a line that meets the tree crosses, on average, about */
-  /* of each node, in the arena: a ray by itself is tried on these when it comes to the node. NULL: it is tried on the
-   * box along a leaf when it comes to the leaf */
-  struct oriented_four *along;
 };
 
 struct model {
@@ -209,6 +181,8 @@ struct model {
   size_t copy_count;
   double error; /* widens the boxes of an object's hierarchy; else 0 */
   struct model_tree tree;
+  struct model_tree *inner; /* in the arena; none has inner trees itself */
+  size_t inner_count;
   struct model_tree twins; /* of what lies exactly on something in `tree`, in its frame: only for all hits */
   bool unproven;           /* `polish off` on some patch, or too large: no answer is proven */
 };
@@ -240,16 +214,16 @@ static inline const struct edge_neighbour *model_neighbour(const struct model *m
   return &model->neighbours[4 * (size_t)patch + (size_t)border];
 }
 
-/* Whether a box of the hierarchy, or of a tree in it, is that of an inner tree. */
+/* Whether a box of the hierarchy is that of an inner tree. */
 static inline bool model_is_tree(const struct model *model, uint32_t box)
 {
   return box >= model->leaf_count + model->copy_count;
 }
 
-/* The tree in `tree` that has this box. */
-static inline struct model_tree *model_inner(const struct model *model, const struct model_tree *tree, uint32_t box)
+/* The inner tree that has this box. */
+static inline struct model_tree *model_inner(const struct model *model, uint32_t box)
 {
-  return &tree->inner[box - model->leaf_count - model->copy_count];
+  return &model->inner[box - model->leaf_count - model->copy_count];
 }
 
 /* The patch, made in `room` if patches are not kept. */
@@ -258,21 +232,15 @@ struct model_patch *model_patch_at(const struct model *model, uint32_t index, st
 /* Makes a leaf that is not kept, without its quadric. */
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
-/* How far a patch with `split` auto is cut: until its leaves' derivatives turn by at most about `turn` of their size,
- * into at most `any` leaves a side, or `bent` if it is bent all over. coarse[0] replaces `turn` where there would be
- * more leaves than a picture shows, coarse[1] where there still were four times as many. Where leaves are thicker than
- * they are apart, patches are cut finer (prepare/crowd.h), up to `leaves` a patch on average; a long patch aslant to
- * the axes, up to `leaves`. Choices of speed, not of correctness. */
-enum { COARSER = 2 };
-struct split_limit {
-  double turn, coarse[COARSER];
-  int any, bent;
-  double leaves;
+/* How far a patch with `split` auto may be cut (prepare/cut.h). */
+struct cut_limit {
+  double leaf_time; /* of making a leaf, for each ray of a picture that meets its patch; ns */
+  int most;         /* leaves of a patch */
 };
 
 /* Makes the model of an object: of the patches of `nets`, which is borrowed for the call, their boxes wider by
  * object->error. */
-enum status model_create_object(const struct scene *nets, const struct team *team, const struct split_limit *limit,
+enum status model_create_object(const struct scene *nets, const struct team *team, const struct cut_limit *limit,
                                 struct model_object *object) STATUS_MUST_CHECK;
 
 #endif

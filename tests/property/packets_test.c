@@ -80,7 +80,7 @@ TEST(rays_apart_do_not_depend_on_companions)
  * are tried depends on their order; what is certain of the ray must not. */
 TEST(exhausted_rays_do_not_depend_on_companions)
 {
-  enum { HEAP = 20000, RAYS = 120, FEW = 3, BUDGET = 3 << 14 };
+  enum { HEAP = 20000, RAYS = 120, FEW = 3, BUDGET = 3 << 13 };
   struct random random = {SEED + 5};
   struct world world;
   struct method options;

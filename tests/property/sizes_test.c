@@ -1,7 +1,6 @@
 /* Scenes whose parts differ in size and place over the whole range of doubles: each part is answered as if it were
  * alone. */
 #include <math.h>
-#include <pthread.h>
 
 #include "cmocka_test.h"
 #include "intersect/model.h"
@@ -127,105 +126,46 @@ TEST(sizes_have_nothing_to_do_with_each_other)
   assert_true(hits > SCENES * RAYS);
 }
 
-/* Bowls round 0, each 2^8 times as wide as the next, over the whole range of doubles, and a crowd at the bottom. */
-enum { BOWLS = 240, AT_THE_BOTTOM = 17000, DEEP_RAYS = 16 };
-
-/* The stack that a call may take, by pscn.h. The sanitizers' frames are larger. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { DEEP_STACK = 12 << 20 };
-#else
-enum { DEEP_STACK = 3 << 19 };
-#endif
-
-struct deep {
+/* Bowls round 0, each 2^8 times as wide as the next, over the range of numbers that are read. Together rays are answered as
+ * they are alone. */
+TEST(bowls_stand_in_bowls)
+{
+  enum { BOWLS = 78, BOWL_RAYS = PACKET_SIZE };
+  static world_net nets[BOWLS];
+  const double least = exp2(320 - 8.2 * BOWLS);
+  for (int k = 0; k < BOWLS; k++) {
+    const double size = exp2(320 - 8.2 * k);
+    for (int n = 0; n < 16; n++) {
+      const int i = n / 4, j = n % 4;
+      const double at[3] = {(i - 1.5) / 1.5, (j - 1.5) / 1.5, ((i == 1 || i == 2) + (j == 1 || j == 2)) / 4.0 - 1};
+      for (int c = 0; c < 3; c++) nets[k][i][j][c] = size * at[c];
+    }
+  }
   struct world world;
-  struct ray rays[DEEP_RAYS];
-  struct hit hits[DEEP_RAYS];
-  bool occluded[DEEP_RAYS];
-  size_t listed[DEEP_RAYS];
-};
-
-static void *go_deep(void *context)
-{
-  struct deep *d = context;
-  struct hit_list lists[PACKET_SIZE];
-  for (size_t n = 0; n < DEEP_RAYS; n += PACKET_SIZE) {
-    const size_t count = DEEP_RAYS - n < PACKET_SIZE ? DEEP_RAYS - n : PACKET_SIZE;
-    tracer_closest(d->world.tracer, count, d->rays + n, d->hits + n);
-    tracer_occluded(d->world.tracer, count, d->rays + n, d->occluded + n);
-    if (tracer_all(d->world.tracer, count, d->rays + n, lists) != STATUS_OK) return NULL;
-    for (size_t k = 0; k < count; k++) d->listed[n + k] = lists[k].count;
-  }
-  return d;
-}
-
-/* How deep frames are nested. */
-static int frames_in(const struct model_tree *tree)
-{
-  int most = 0;
-  for (size_t k = 0; k < tree->inner_count; k++) {
-    const int here = frames_in(&tree->inner[k]);
-    most = here > most ? here : most;
-  }
-  return most + 1;
-}
-
-static void expect_frames(const struct scene *scene, int frames)
-{
-  struct model *model;
-  assert_int_equal(model_create(scene, NULL, &model), STATUS_OK);
-  assert_int_equal(frames_in(&model->tree), frames);
-  model_destroy(model);
-}
-
-TEST(frames_within_frames_take_little_stack)
-{
-  static world_net nets[BOWLS + AT_THE_BOTTOM];
-  static struct deep d;
-  for (int crowd = 0; crowd < 2; crowd++) { /* with the crowd, rays travel separately */
-    for (int k = 0; k < BOWLS; k++) {
-      const double size = exp2(330 - 8.2 * k);
-      for (int n = 0; n < 16; n++) {
-        const int i = n / 4, j = n % 4;
-        const double at[3] = {(i - 1.5) / 1.5, (j - 1.5) / 1.5, ((i == 1 || i == 2) + (j == 1 || j == 2)) / 4.0 - 1};
-        for (int c = 0; c < 3; c++) nets[k][i][j][c] = size * at[c];
-      }
+  struct ray rays[BOWL_RAYS];
+  struct hit hits[BOWL_RAYS];
+  bool occluded[BOWL_RAYS];
+  for (int n = 0; n < BOWL_RAYS; n++) {
+    rays[n] = (struct ray){.t_max = INFINITY};
+    for (int c = 0; c < 3; c++) {
+      rays[n].origin[c] = least * (n + c) * 1e-3;
+      rays[n].direction[c] = (n >> c & 1 ? 1 : -1) * (1 + 0.01 * c + 0.001 * n);
     }
-    const double least = exp2(330 - 8.2 * BOWLS);
-    for (int k = 0; k < AT_THE_BOTTOM; k++)
-      for (int n = 0; n < 16; n++) {
-        const double at[3] = {(n / 4 * 0.01 + 0.1 * (k % 128)) / 128, (n % 4 * 0.01 + 0.1 * (k / 128)) / 128, 1e-6 * k};
-        for (int c = 0; c < 3; c++) nets[BOWLS + k][n / 4][n % 4][c] = least * (at[c] + 0.1);
-      }
-    for (int n = 0; n < DEEP_RAYS; n++) {
-      d.rays[n] = (struct ray){.t_max = INFINITY};
-      for (int c = 0; c < 3; c++) {
-        d.rays[n].origin[c] = least * (n + c) * 1e-3;
-        d.rays[n].direction[c] = (n >> c & 1 ? 1 : -1) * (1 + 0.01 * c + 0.001 * n);
-      }
-    }
-    world_open(&d.world, nets, crowd ? BOWLS + AT_THE_BOTTOM : BOWLS, NULL);
-    expect_frames(&d.world.scene, MODEL_FRAMES);
-    pthread_t thread;
-    pthread_attr_t attributes;
-    void *done;
-    assert_int_equal(pthread_attr_init(&attributes), 0);
-    assert_int_equal(pthread_attr_setstacksize(&attributes, DEEP_STACK), 0);
-    assert_int_equal(pthread_create(&thread, &attributes, go_deep, &d), 0);
-    assert_int_equal(pthread_join(thread, &done), 0);
-    pthread_attr_destroy(&attributes);
-    assert_non_null(done);
-    size_t hits = 0;
-    for (int n = 0; n < DEEP_RAYS; n++) {
-      const struct hit alone = world_closest(&d.world, &d.rays[n]);
-      assert_int_equal(d.hits[n].patch, alone.patch);
-      assert_int_equal(d.hits[n].certainty, alone.certainty);
-      assert_int_equal(d.occluded[n], alone.patch != HIT_NONE);
-      hits += alone.patch != HIT_NONE && d.listed[n] > 0;
-    }
-    assert_true(hits >= DEEP_RAYS / 4);
-    world_close(&d.world);
   }
+  world_open(&world, nets, BOWLS, NULL);
+  assert_true(world.tracer->model->inner_count >= BOWLS / 2);
+  tracer_closest(world.tracer, BOWL_RAYS, rays, hits);
+  tracer_occluded(world.tracer, BOWL_RAYS, rays, occluded);
+  size_t met = 0;
+  for (int n = 0; n < BOWL_RAYS; n++) {
+    const struct hit alone = world_closest(&world, &rays[n]);
+    assert_int_equal(hits[n].patch, alone.patch);
+    assert_int_equal(hits[n].certainty, alone.certainty);
+    assert_int_equal(occluded[n], alone.patch != HIT_NONE);
+    met += alone.patch != HIT_NONE;
+  }
+  assert_true(met >= BOWL_RAYS / 4);
+  world_close(&world);
 }
 
 int main(void)

@@ -219,8 +219,10 @@ static bool count_rays(net4 P, size_t count, const struct ray rays[], const char
       if (hit.patch == HIT_NONE || found[0]) continue;
       out[m].lost++;
       if (geometry == CAUSES) {
-        const bool v_kept = target[m][0].tracer->model->leaves[0].v_kept;
-        algebra_of(P, &rays[n], v_kept, hit.u, hit.v, &algebra);
+        const struct model *model = target[m][0].tracer->model;
+        struct leaf_form form;
+        leaf_form_make(&model->patches[0], &model->leaves[0], &form);
+        algebra_of(P, &rays[n], form.v_kept, hit.u, hit.v, &algebra);
         geometry = geometric(&algebra);
       }
       const enum cause cause = geometry == LOWER                 ? LOWER
@@ -313,9 +315,11 @@ static void conditions_of(net4 P, const struct ray *ray, struct target target[3]
   if (hit[2].patch == HIT_NONE || hit[2].certainty != CERTAINTY_CERTAIN) return;
   for (int k = 0; k < 2; k++)
     if (hit[k].patch == HIT_NONE || fabs(hit[k].t - hit[2].t) > WRONG * hit[2].t) return;
-  const bool v_kept = target[0].tracer->model->leaves[0].v_kept;
+  const struct model *model = target[0].tracer->model;
+  struct leaf_form form;
+  leaf_form_make(&model->patches[0], &model->leaves[0], &form);
   struct algebra algebra;
-  algebra_of(P, ray, v_kept, hit[2].u, hit[2].v, &algebra);
+  algebra_of(P, ray, form.v_kept, hit[2].u, hit[2].v, &algebra);
   quad scaled[16], other[16], c[DEGREE + 1], sum[2] = {0}, slope = 0, power = 1;
   for (int n = 0; n < 16; n++) {
     const double choose = bezout_quad_binomial(3, n / 4) * bezout_quad_binomial(3, n % 4);
@@ -337,7 +341,7 @@ static void conditions_of(net4 P, const struct ray *ray, struct target target[3]
                     det;
   printf("%.3g,%.3g,%.3g", (double)(sum[0] / quad_abs(slope)), (double)(sum[1] / quad_abs(slope)),
          (double)quad_abs(both));
-  for (int k = 0; k < 3; k++) printf(",%.3g", (double)quad_abs((v_kept ? hit[k].v : hit[k].u) - u));
+  for (int k = 0; k < 3; k++) printf(",%.3g", (double)quad_abs((form.v_kept ? hit[k].v : hit[k].u) - u));
   printf("\n");
 }
 

@@ -71,10 +71,12 @@ static void find_roots(struct target *target, const struct ray *ray, struct meth
   const struct model *model = target->tracer->model;
   const struct leaf *leaf = &model->leaves[0];
   struct local_ray local;
-  struct method_planes planes = {.leaf = leaf};
+  struct leaf_form form;
+  leaf_form_make(&model->patches[0], leaf, &form);
+  struct method_planes planes = {.form = &form};
   double w[16];
   local_ray_make(&model->patches[0], ray, &local);
-  local_ray_nets(&local, leaf->form != NULL ? leaf->form->x : leaf->x, planes.a, planes.b, w);
+  local_ray_nets(&local, form.own ? leaf->x : form.x, planes.a, planes.b, w);
   method_find(model->patches[0].method, &planes, INT_MAX, NULL, out, NULL);
 }
 

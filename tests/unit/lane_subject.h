@@ -26,9 +26,8 @@ static inline void subject_make(struct random *random, unsigned most_halvings, d
   const uint16_t side = (uint16_t)(1 << random_bits(random) % (most_halvings + 1));
   s->over_a_plane = kind == 1;
   method_default(solver_at(0), &s->method);
-  s->patch = (struct model_patch){.scale = exp2(rint(random_between(random, -30, 30))),
-                                  .cut = {.m = 3, .n = 3, .split = {side, side}},
-                                  .method = &s->method};
+  s->patch = (struct model_patch){
+    .scale = exp2(rint(random_between(random, -30, 30))), .cut = {.split = {side, side}}, .method = &s->method};
   s->patch.rest = (const double(*)[4][4])s->rest;
   for (int k = 0; k < 3; k++) {
     s->patch.center[k] = s->patch.scale * rint(random_between(random, -4, 4));

@@ -18,7 +18,7 @@ static void make_patch(struct random *random, struct subject *s)
   double along[2][3];
   const double bend = pow(2, -random_between(random, 4, 40));
   method_default(solver_at(0), &s->method);
-  s->patch = (struct model_patch){.scale = 1, .cut = {.m = 3, .n = 3, .split = {1, 1}}, .method = &s->method};
+  s->patch = (struct model_patch){.scale = 1, .cut = {.split = {1, 1}}, .method = &s->method};
   s->patch.rest = (const double(*)[4][4])s->rest;
   for (int k = 0; k < 3; k++) {
     for (int side = 0; side < 2; side++) along[side][k] = random_between(random, -0.4, 0.4);

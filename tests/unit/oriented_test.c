@@ -51,7 +51,7 @@ static void make_leaf(struct random *random, bool off, struct subject *s)
 {
   const int kind = (int)(random_bits(random) % 3);
   const uint16_t side = (uint16_t)(1 << random_bits(random) % 6);
-  s->patch = (struct model_patch){.scale = power(random, -30, 30), .cut = {.m = 3, .n = 3, .split = {side, side}}};
+  s->patch = (struct model_patch){.scale = power(random, -30, 30), .cut = {.split = {side, side}}};
   s->patch.rest = (const double(*)[4][4])s->rest;
   memset(s->rest, 0, sizeof s->rest);
   for (int k = 0; k < 3; k++) {

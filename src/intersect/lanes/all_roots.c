@@ -59,7 +59,7 @@ static void all_roots_near(const struct candidate *it, const struct roots_lanes 
   }
   for (int k = 0; k < out->count; k++) {
     const lanes at = start_within(kept[k]), other = start_within(resultant_eliminated(it, at));
-    out->u[k] = it->leaf->v_kept ? other : at, out->v[k] = it->leaf->v_kept ? at : other;
+    out->u[k] = it->form.v_kept ? other : at, out->v[k] = it->form.v_kept ? at : other;
   }
 }
 
@@ -68,7 +68,7 @@ static void all_roots_near(const struct candidate *it, const struct roots_lanes 
 static lane_mask all_roots_prove(const struct packet *p, const struct candidate *it, const struct root_starts *starts,
                                  struct all_roots *all)
 {
-  const bool v_kept = it->leaf->v_kept;
+  const bool v_kept = it->form.v_kept;
   lane_mask alone = {0};
   lanes found = {0}, within = {0};
   all->count = starts->count;

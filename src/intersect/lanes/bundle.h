@@ -14,7 +14,6 @@ struct bundle {
   struct later later;
   struct view view;
   unsigned live; /* bit k: ray k still seeks a hit */
-  int depth;     /* of its tree: the number of frames around it, including those around the copy */
 };
 
 /* Takes over the ends of its packets' rays. */

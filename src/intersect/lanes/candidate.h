@@ -9,6 +9,7 @@
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
 
 #include "intersect/lanes/newton.h"
+#include "intersect/prepare/leaf.h"
 
 enum { RESULTANT_MAX_DEGREE = 18 };
 
@@ -25,6 +26,7 @@ struct candidate {
   /* planes_set: */
   lanes a[16], b[16]; /* nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
   /* stage_resultant: */
+  struct leaf_form form;
   lanes form_error;             /* of a coefficient of the form */
   lanes form_a[16], form_b[16]; /* used if the form is not the leaf's own net */
   const lanes *fa, *fb;
@@ -138,13 +140,10 @@ lanes plane_depth(const struct candidate *it, lanes u, lanes v);
 lanes resultant_eliminated(const struct candidate *it, lanes kept);
 
 /* Whether r is made of the leaf's own polynomials, and so has a root for each of the leaf's. Polynomials of a lower
- * degree are off by form->excess. Moved by a constant they have any one root of the leaf as their root, but two roots
+ * degree are off by the excess. Moved by a constant they have any one root of the leaf as their root, but two roots
  * may need different constants, and so different r. The sign variations of r then prove that there is no root, but do
  * not bound how many there are. */
-LANES_INLINE bool resultant_counts(const struct candidate *it)
-{
-  return !it->leaf->form || it->leaf->form->excess == 0;
-}
+LANES_INLINE bool resultant_counts(const struct candidate *it) { return it->form.excess == 0; }
 
 /* t clamped to [0,1], or the middle if it is not a number. */
 LANES_INLINE lanes start_within(lanes t) { return lanes_clamp(lanes_select(t == t, t, lanes_all(0.5)), 0, 1); }

@@ -18,7 +18,6 @@
 #define view_set KERNEL(view_set)
 #define view_set_ends KERNEL(view_set_ends)
 #define view_boxes_unlike KERNEL(view_boxes_unlike)
-#define view_oriented_four KERNEL(view_oriented_four)
 #define offer_root KERNEL(offer_root)
 #define offer_unproven KERNEL(offer_unproven)
 #define stage_slab KERNEL(stage_slab)

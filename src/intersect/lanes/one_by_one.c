@@ -16,14 +16,14 @@
 static void lane_solve(const struct packet *p, const struct candidate *it, unsigned lane, struct method_roots *out)
 {
   const struct method *method = it->patch->method;
-  struct method_planes planes = {.leaf = it->leaf};
+  struct method_planes planes = {.form = &it->form};
   const int64_t left = p->postponed->left[lane];
   out->count = 0;
   if (left < 0 || tracer_stopped(p->tracer)) return;
-  for (int i = 0; i <= it->leaf->kept_degree; i++)
-    for (int j = 0; j <= it->leaf->eliminated_degree; j++)
+  for (int i = 0; i <= it->form.kept_degree; i++)
+    for (int j = 0; j <= it->form.eliminated_degree; j++)
       planes.a[4 * i + j] = it->fa[4 * i + j][lane], planes.b[4 * i + j] = it->fb[4 * i + j][lane];
-  const double degree = 2 * it->leaf->kept_degree * it->leaf->eliminated_degree,
+  const double degree = 2 * it->form.kept_degree * it->form.eliminated_degree,
                step = degree * (method->polish ? 1.0 : BARE_COST) / PRODUCTS_A_UNIT; /* its cost */
   const double most = (double)left / (step * degree);                                /* of each root */
   method_find(method, &planes, most < INT_MAX ? (int)most : INT_MAX, tracer_warm(p->tracer, method, it->number), out,

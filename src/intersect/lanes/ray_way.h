@@ -16,7 +16,6 @@ LANES_INLINE void fetch_child(const struct model *model, const struct model_tree
   if (child == box) {
     __builtin_prefetch(&tree->bvh.nodes[child]);
     __builtin_prefetch(&tree->bvh.nodes[child].child);
-    if (tree->along) fetch(&tree->along[child], sizeof *tree->along);
   } else if (box < model->leaf_count) {
     __builtin_prefetch(&model->oriented[box]);
   }
@@ -68,16 +67,14 @@ LANES_INLINE void ray_wait(struct ray_way *way, size_t from, float near, uint32_
   way->stack[n].near = near, way->stack[n].child = child;
 }
 
-/* Goes down from a node to the nearest of its children, testing one ray on four boxes, and on those along leaves if the
- * tree has them side by side; the other children wait. Returns whether the ray goes on. */
+/* Goes down from a node to the nearest of its children, testing one ray on four boxes; the other children wait. Returns
+ * whether the ray goes on. */
 LANES_INLINE bool ray_down(const struct bundle *b, const struct model_tree *tree, struct ray_way *way)
 {
   const struct bvh_node *node = &tree->bvh.nodes[way->child];
   const size_t from = sorted_from(way->nearest, way->top);
   float near[BVH_WIDTH];
   unsigned sides = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
-  if (tree->along && sides & node_leaves(node))
-    sides &= view_oriented_four(&b->view, way->lane, &tree->along[way->child], near);
   if (sides == 0) return ray_next(b, way);
   int next = __builtin_ctz(sides);
   for (sides &= sides - 1; sides; sides &= sides - 1) {

@@ -14,17 +14,18 @@ enum { RESULTANT_NEWTON_STEPS = 3 };
 
 static void set_form(struct candidate *it)
 {
-  const struct leaf_form *form = it->leaf->form;
-  it->fa = form ? it->form_a : it->a, it->fb = form ? it->form_b : it->b, it->form_error = it->line->error;
+  const struct leaf_form *form = &it->form;
+  leaf_form_make(it->patch, it->leaf, &it->form);
+  it->fa = form->own ? it->a : it->form_a, it->fb = form->own ? it->b : it->form_b, it->form_error = it->line->error;
   it->alpha = it->beta = lanes_all(0);
-  for (int i = 0; i <= it->leaf->kept_degree; i++) {
-    for (int j = 0; j <= it->leaf->eliminated_degree; j++) {
+  for (int i = 0; i <= form->kept_degree; i++) {
+    for (int j = 0; j <= form->eliminated_degree; j++) {
       const int n = 4 * i + j;
-      if (form) plane_values(it->line, it->axis, form->x, n, &it->form_a[n], &it->form_b[n]);
+      if (!form->own) plane_values(it->line, it->axis, form->x, n, &it->form_a[n], &it->form_b[n]);
       it->alpha = lanes_max(it->alpha, lanes_abs(it->fa[n])), it->beta = lanes_max(it->beta, lanes_abs(it->fb[n]));
     }
   }
-  if (!form) return;
+  if (form->own) return;
   /* Where the ray meets the leaf, the form's polynomials are off by their excess, twice that for a plane of slope 1. If
    * each is moved by a constant, which moves all its coefficients alike, they have their common root there. So the
    * excess counts as an error of coefficients. */
@@ -35,11 +36,11 @@ static void set_form(struct candidate *it)
  * more variations. Returns the lanes that may meet the leaf. */
 static lane_mask resultant_varies(struct candidate *it, lane_mask active)
 {
-  const int m = it->leaf->kept_degree, n = it->leaf->eliminated_degree;
+  const int m = it->form.kept_degree, n = it->form.eliminated_degree;
   if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, it->fa, it->fb, it->c_store);
   else bezout_lanes_resultant(m, n, it->fa, it->fb, it->c_store);
-  it->c = it->c_store + it->leaf->zeros[0];
-  it->degree = 2 * m * n - it->leaf->zeros[0] - it->leaf->zeros[1];
+  it->c = it->c_store + it->form.zeros[0];
+  it->degree = 2 * m * n - it->form.zeros[0] - it->form.zeros[1];
   const lanes alpha = it->alpha + it->form_error, beta = it->beta + it->form_error;
   const lanes product = alpha * beta, power = n == 1   ? product
                                               : n == 2 ? product * product
@@ -48,13 +49,13 @@ static lane_mask resultant_varies(struct candidate *it, lane_mask active)
   lanes last = {0}, variations = {0};
   const int full = 2 * m * n;
   double choose = 1;
-  for (int k = 0; k < it->leaf->zeros[0]; k++) choose = choose * (full - k) / (k + 1);
+  for (int k = 0; k < it->form.zeros[0]; k++) choose = choose * (full - k) / (k + 1);
   for (int k = 0; k <= it->degree; k++) {
     const lanes c = it->c[k];
     const lane_mask either = ~(lanes_abs(c) > choose * bound);
     variations += lanes_select(either | (c * last < 0), lanes_all(1), lanes_all(0));
     last = lanes_select(either, -last, lanes_select(c > 0, lanes_all(1), lanes_all(-1)));
-    const int at = k + it->leaf->zeros[0];
+    const int at = k + it->form.zeros[0];
     choose = choose * (full - at) / (at + 1);
   }
   it->variations = variations;
@@ -102,7 +103,7 @@ static lanes resultant_root(const struct candidate *it, bool first)
 
 lanes resultant_eliminated(const struct candidate *it, lanes kept)
 {
-  const int m = it->leaf->kept_degree, n = it->leaf->eliminated_degree;
+  const int m = it->form.kept_degree, n = it->form.eliminated_degree;
   const lanes s = 1 - kept;
   lanes w[4], p[4] = {{0}}, q[4] = {{0}};
   if (m == 1) w[0] = s, w[1] = kept;
@@ -121,7 +122,7 @@ static void resultant_refine(const struct packet *p, const struct candidate *it,
                              struct leaf_root *out)
 {
   const lanes kept = start_within(resultant_root(it, first)), eliminated = start_within(resultant_eliminated(it, kept));
-  const bool v_kept = it->leaf->v_kept;
+  const bool v_kept = it->form.v_kept;
   const lanes start[2] = {(v_kept ? eliminated : kept) - 0.5, (v_kept ? kept : eliminated) - 0.5};
   newton_solve(p, it->leaf, it->axis, start, active, out);
 }
@@ -146,7 +147,7 @@ lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask act
   struct leaf_root root;
   const struct newton_root *r = &root.at;
   resultant_refine(p, it, false, active, &root);
-  const lanes k = it->leaf->v_kept ? r->v : r->u, radius = it->leaf->v_kept ? r->radius_v : r->radius_u;
+  const lanes k = it->form.v_kept ? r->v : r->u, radius = it->form.v_kept ? r->radius_v : r->radius_u;
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
   lane_mask single = {0};
   if (resultant_counts(it)) single = (it->variations == 1) & r->exists & (k > radius) & (1 - k > radius);

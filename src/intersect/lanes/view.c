@@ -196,30 +196,3 @@ void view_boxes_unlike(const struct view *view, const struct bvh_node *node, str
 {
   view_boxes_as(view, node, false, out);
 }
-
-/* Out of line: inlined, it takes registers from trees that do not have these boxes. */
-unsigned view_oriented_four(const struct view *view, unsigned lane, const struct oriented_four *box,
-                            float near[BVH_WIDTH])
-{
-  const float far = view->far[lane], widen = view->widen[lane], reach = widen * WIDE_REACH + 1;
-  four_floats a[3], b[3], size[3], half[3];
-  for (int q = 0; q < 3; q++) {
-    const four_floats g0 = four_floats_load(box->g[0][q]), g1 = four_floats_load(box->g[1][q]),
-                      g2 = four_floats_load(box->g[2][q]);
-    a[q] = g0 * view->from[0][lane] +
-           (g1 * view->from[1][lane] + (g2 * view->from[2][lane] - four_floats_load(box->offset[q])));
-    b[q] = g0 * view->along[0][lane] + (g1 * view->along[1][lane] + g2 * view->along[2][lane]);
-    size[q] = four_floats_abs(b[q]), half[q] = widen + four_floats_load(box->half[q]);
-  }
-  const four_floats end = a[0] + b[0] * (far < reach ? far : reach);
-  four_mask out = (four_floats_min(a[0], end) > half[0]) | (four_floats_max(a[0], end) < -half[0]);
-  for (int q = 0; q < 3; q++) {
-    const int r = (q + 1) % 3;
-    out |= four_floats_abs(a[q] * b[r] - a[r] * b[q]) > half[q] * size[r] + (half[r] * size[q] + WIDE_LEAST);
-  }
-  /* |A + B depth| <= half from the depth (|A| - half)/|B| on; half allows for that division's rounding, too */
-  const four_floats enter = (four_floats_abs(a[0]) - half[0]) / size[0];
-  const four_floats later = four_floats_max(enter, four_floats_load(near));
-  memcpy(near, &later, sizeof later);
-  return ~four_mask_bits(out);
-}

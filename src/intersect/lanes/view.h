@@ -61,14 +61,6 @@ LANES_INLINE uint64_t node_sides(const struct bvh_node *node)
   return four_mask_words(child != 0);
 }
 
-/* The node's leaf children, as bits. */
-LANES_INLINE unsigned node_leaves(const struct bvh_node *node)
-{
-  four_mask child;
-  memcpy(&child, node->child, sizeof child);
-  return four_mask_bits(child < 0); /* BVH_LEAF is the sign */
-}
-
 /* A child of a node, and the rays that enter it. */
 struct entered {
   int side;
@@ -101,11 +93,6 @@ void view_set_ends(struct view *view, const struct packet packet[], int packets)
 
 /* view.c: view_boxes for rays that enter boxes by different sides. */
 void view_boxes_unlike(const struct view *view, const struct bvh_node *node, struct entries *out);
-
-/* view.c: view_oriented for one ray on the boxes along a node's leaf children: as bits, those that it may be in. Where
- * it enters the slab across a leaf later than near[] says, near[] is moved there. */
-unsigned view_oriented_four(const struct view *view, unsigned lane, const struct oriented_four *box,
-                            float near[BVH_WIDTH]);
 
 /* The size of a row of four planes of a node, one for each child. */
 enum { NODE_ROW = sizeof(float[BVH_WIDTH]) };

@@ -21,7 +21,7 @@ static void bundle_walk_all(struct bundle *b, const struct model *model);
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
   struct bundle inner;
-  inner.packets = 0, inner.depth = b->depth + 1;
+  inner.packets = 0;
   for (struct packet *p = b->packet; active; p++, active >>= LANES)
     if (active & ALL_LANES) packet_enter(p, copy, lanes_mask(active & ALL_LANES), &inner.packet[inner.packets++]);
   bundle_set_later(&inner, b->packet[0].any);
@@ -30,14 +30,12 @@ static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigne
   for (int h = 0; h < inner.packets; h++) packet_leave(&inner.packet[h]);
 }
 
-/* Walks a tree in a tree with the same rays, in its frame. */
+/* Walks an inner tree with the same rays, in its frame. */
 static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsigned active)
 {
   const struct view outer = b->view;
-  b->depth++;
   bundle_start(b, inner);
   bundle_walk(b, inner, active & b->live);
-  b->depth--;
   b->view = outer;
   bundle_update(b);
 }
@@ -73,11 +71,11 @@ __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t ind
 }
 
 /* Tries what box `index` of the tree, which is passed, stands for. */
-static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_t index, unsigned active)
+static void bundle_leaf(struct bundle *b, uint32_t index, unsigned active)
 {
   const struct model *model = b->packet[0].model;
   if (model_is_tree(model, index)) {
-    bundle_inner(b, model_inner(model, tree, index), active);
+    bundle_inner(b, model_inner(model, index), active);
   } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);
   } else if (model->leaves) {
@@ -105,12 +103,11 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
   }
 }
 
-/* Whether the ray passes that leaf's box, which may have been tried at the node (ray_down), and is to be tried on the
- * leaf now. If so, the leaf is prefetched. */
-LANES_INLINE bool ray_passes(struct bundle *b, const struct model_tree *tree, uint32_t box, unsigned lane)
+/* Whether the ray passes that box, and is to be tried on the leaf now. If so, the leaf is prefetched. */
+LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
 {
   const struct model *model = b->packet[0].model;
-  if (!tree->along && !box_passed(b, box, 1u << lane)) return false;
+  if (!box_passed(b, box, 1u << lane)) return false;
   if (!bundle_put_off(b, box, 1u << lane)) return false;
   if (box < model->leaf_count) fetch_leaf(model, box);
   return true;
@@ -126,7 +123,7 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
     if (way.child == box) {
       on = ray_down(b, tree, &way);
     } else {
-      if (ray_passes(b, tree, box, lane)) bundle_leaf(b, tree, box, 1u << lane);
+      if (ray_passes(b, box, lane)) bundle_leaf(b, box, 1u << lane);
       on = (b->live >> lane & 1) && ray_next(b, &way);
     }
   }
@@ -153,12 +150,12 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
       } else if (child == box) {
         if (!ray_down(b, tree, way)) rays &= ~(1u << lane);
       } else if (waits_at[lane] == 0) {
-        if (ray_passes(b, tree, box, lane)) waits_at[lane] = child;
+        if (ray_passes(b, box, lane)) waits_at[lane] = child;
         else if (!ray_next(b, way)) rays &= ~(1u << lane);
       } else {
         unsigned here = 0;
         for (int k = 0; k < FLOAT_LANES; k++) here |= (unsigned)(waits_at[k] == child) << k;
-        bundle_leaf(b, tree, box, here);
+        bundle_leaf(b, box, here);
         bits &= ~here | 1u << lane; /* that was their turn, too */
         for (; here; here &= here - 1) {
           const unsigned k = (unsigned)__builtin_ctz(here);
@@ -252,7 +249,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
       rays = box_passed(b, box, rays);
       if (rays) rays = bundle_put_off(b, box, rays);
       if (rays && box < b->packet[0].model->leaf_count) fetch_leaf(b->packet[0].model, box);
-      if (rays) bundle_leaf(b, tree, box, rays);
+      if (rays) bundle_leaf(b, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
       for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
     } else if (together_down(b, tree, nearest, &waiting, &rays, &child)) {
@@ -264,16 +261,10 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   bundle_looked(b, looks);
 }
 
-/* In frames nested deeper than this, each ray goes by itself. That takes a tenth of the stack: 7 KB a frame, where rays
- * together take up to 60 KB (AVX-512). With MODEL_FRAMES in the scene, and in an object that is copied, it is 1.1 MB at
- * most. */
-enum { TOGETHER_DEEP = 6 };
-
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
   if (tree->bvh.node_count == 0) return;
-  if (b->depth > TOGETHER_DEEP || __builtin_popcount(rays) == 1)
-    for (; rays; rays &= rays - 1) ray_walk(b, tree, 0, (unsigned)__builtin_ctz(rays));
+  if (rays && (rays & (rays - 1)) == 0) ray_walk(b, tree, 0, (unsigned)__builtin_ctz(rays));
   else if (rays_apart(b)) rays_walk(b, tree, rays);
   else together_walk(b, tree, rays);
 }
@@ -281,13 +272,12 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 /* Walks all of the model, twins only where all hits are asked for, and then tries the leaves that were put off. */
 static void bundle_walk_all(struct bundle *b, const struct model *model)
 {
-  const struct model_tree *tree = &model->tree;
-  bundle_walk(b, tree, b->live);
+  bundle_walk(b, &model->tree, b->live);
   if (b->packet[0].gather) bundle_walk(b, &model->twins, b->live);
   for (int h = 0; h < b->packets; h++) b->packet[h].later = NULL;
   for (unsigned k = 0; k < b->later.count; k++) {
     const unsigned rays = b->later.at[k].rays & b->live;
-    if (rays) bundle_leaf(b, tree, b->later.at[k].leaf, rays);
+    if (rays) bundle_leaf(b, b->later.at[k].leaf, rays);
   }
 }
 
@@ -299,7 +289,7 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
                                const struct ray rays[], bool any, int budget)
 {
   const size_t packets = packets_of(count);
-  b->packets = (int)packets, b->depth = 0;
+  b->packets = (int)packets;
   for (size_t h = 0; h < packets; h++) {
     const size_t left = count - h * LANES;
     packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any, budget);

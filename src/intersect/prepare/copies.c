@@ -258,7 +258,7 @@ static enum status mark_twins_of_copy(const struct model *model, struct model_co
 
 /* Makes the model of an object from its nets about their middle; the solver is that of a copy. */
 static enum status prepare_object(const struct model *model, const struct team *team, const struct model_copy *copy,
-                                  const struct split_limit *limit, struct model_object *object)
+                                  const struct cut_limit *limit, struct model_object *object)
 {
   const struct scene_object *declared = object->declared;
   const struct middle middle = object_middle(declared);
@@ -276,7 +276,7 @@ static enum status prepare_object(const struct model *model, const struct team *
   return status;
 }
 
-enum status copies_prepare(struct model *model, const struct team *team, const struct split_limit *limit)
+enum status copies_prepare(struct model *model, const struct team *team, const struct cut_limit *limit)
 {
   for (size_t k = 0; k < model->copy_count && model->twin; k++)
     if (mark_twins_of_copy(model, &model->copies[k]) != STATUS_OK) return STATUS_LIMIT;

@@ -17,7 +17,7 @@ enum status copies_choose(struct model *model, size_t most, size_t *own) STATUS_
 
 /* Makes the objects' models. */
 enum status copies_prepare(struct model *model, const struct team *team,
-                           const struct split_limit *limit) STATUS_MUST_CHECK;
+                           const struct cut_limit *limit) STATUS_MUST_CHECK;
 
 /* The copy's box, as tree_build takes it. */
 void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out);

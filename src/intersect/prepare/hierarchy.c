@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 #include "intersect/prepare/copies.h"
-#include "intersect/prepare/crowd.h"
+#include "intersect/prepare/cut.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/making.h"
 #include "intersect/prepare/patch.h"
@@ -17,13 +17,6 @@
 
 /* Threads take one of this many parts of the patches at once. */
 enum { PARTS = 1024 };
-
-/* Room for what not every patch or leaf has: *room, or new room if that is used up. */
-static bool next_room(struct arena *arena, void **room, size_t size)
-{
-  if (!*room) *room = arena_alloc(arena, 1, size);
-  return *room != NULL;
-}
 
 /* Gives the model what has been made, if it is kept; else frees it. */
 static void end_arenas(struct making *m, bool keep)
@@ -44,22 +37,17 @@ static bool begin_arenas(struct making *m)
 
 /* ---- patches ---- */
 
-/* Makes the patches, cuts each, and counts the leaves. */
+/* Makes patches that are kept. */
 static enum status make_patches(void *context, size_t worker)
 {
   struct making *m = context;
-  struct model *model = m->model;
   void *rest = NULL;
   for (size_t part, p, end; making_take_part(m, &part, &p, &end);) {
     for (; p < end; p++) {
-      struct patch_room room;
-      struct model_patch *patch = m->keep ? &model->patches[p] : &room.patch;
-      const struct model_cut *cut = &model->cuts[p];
-      if (cut->copied && !m->keep) continue;
-      if (m->keep && !next_room(m->arenas[worker], &rest, sizeof room.rest)) return STATUS_LIMIT;
-      patch_make_first(model, (uint32_t)p, &m->limit, patch, m->keep ? rest : room.rest);
+      struct model_patch *patch = &m->model->patches[p];
+      if (!rest && !(rest = arena_alloc(m->arenas[worker], 1, sizeof(double[3][4][4])))) return STATUS_LIMIT;
+      patch_make(m->model, (uint32_t)p, patch, rest);
       if ((const void *)patch->rest == rest) rest = NULL;
-      if (!cut->copied) m->leaves[part] += cut_leaves(cut);
     }
   }
   return STATUS_OK;
@@ -76,57 +64,30 @@ static void sum_leaves(struct making *m)
   }
 }
 
-/* A picture shows one layer of the surfaces that a line crosses. With more leaves than this in a layer, few rays of a
- * packet meet the same leaf, and none finds a leaf in the processor's caches: fewer and larger leaves, although each
- * costs more, cost less. */
-enum { LAYER_LEAVES = 1 << 15 };
-
-/* Whether there are more than `most` leaves in a layer, of patches that are kept. Layers are the tree's `crossings`,
- * computed from patches. */
-static bool too_many(const struct model *model, size_t most)
-{
-  if (model->leaf_count <= most) return false;
-  const double frame = model->tree.frame;
-  struct bvh_box box = BVH_EMPTY;
-  double area = 0;
-  for (size_t p = 0; p < model->scene->patch_count; p++) {
-    if (model->cuts[p].copied) continue;
-    box_add_net(&box, model->scene->patches[p].P);
-    const double scale = model->patches[p].scale / frame;
-    area += scale * scale * patch_net_area(&model->patches[p]);
-  }
-  for (int k = 0; k < 3; k++) box.lo[k] /= frame, box.hi[k] /= frame;
-  const double layers = 2 * area / box_surface(&box);
-  return (double)model->leaf_count > (double)most * (layers > 1 ? layers : 1);
-}
-
-static enum status cut_part_again(void *context, size_t worker)
+/* Cuts the patches, and counts the leaves. */
+static enum status cut_part(void *context, size_t worker)
 {
   struct making *m = context;
   struct model *model = m->model;
   (void)worker;
   for (size_t part, p, end; making_take_part(m, &part, &p, &end);) {
-    m->leaves[part] = 0;
     for (; p < end; p++) {
-      const struct model_cut *cut = &model->cuts[p];
+      struct patch_room room;
+      struct model_cut *cut = &model->cuts[p];
       if (cut->copied) continue;
-      patch_cut_again(model, (uint32_t)p, &m->limit, &model->patches[p]);
+      struct model_patch *patch = model_patch_at(model, (uint32_t)p, &room);
+      const int fixed = patch->method->split < model->most_split ? patch->method->split : model->most_split;
+      double lo[3], hi[3];
+      points_range((const double(*)[4][3])model->scene->patches[p].P, lo, hi);
+      /* The leaves of a point are all at one place: a ray would be tried on each of them. */
+      if (lo[0] == hi[0] && lo[1] == hi[1] && lo[2] == hi[2]) cut->split[0] = cut->split[1] = 1;
+      else if (fixed > 0) cut->split[0] = cut->split[1] = (uint16_t)fixed;
+      else patch_cut(patch, &m->cells, &m->limit, cut->split);
+      patch->cut = *cut;
       m->leaves[part] += cut_leaves(cut);
     }
   }
   return STATUS_OK;
-}
-
-static enum status cut_coarser(struct making *m)
-{
-  enum status status = STATUS_OK;
-  size_t most = LAYER_LEAVES;
-  for (int k = 0; k < COARSER && status == STATUS_OK && too_many(m->model, most); k++, most *= 4) {
-    m->limit.turn = m->limit.coarse[k];
-    status = making_do_parts(m, cut_part_again, m->model->scene->patch_count);
-    sum_leaves(m);
-  }
-  return status;
 }
 
 static enum status cut_patches(struct making *m)
@@ -139,9 +100,12 @@ static enum status cut_patches(struct making *m)
   if (!m->leaves || !m->arenas || !begin_arenas(m)) return STATUS_LIMIT;
   if (m->keep) model->patches = arena_alloc(m->arenas[0], count + 1, sizeof *model->patches);
   if (m->keep && !model->patches) return STATUS_LIMIT;
-  const enum status status = making_do_parts(m, make_patches, count);
+  enum status status = m->keep ? making_do_parts(m, make_patches, count) : STATUS_OK;
+  if (status == STATUS_OK && m->keep) status = cells_fill(model, &m->cells);
+  if (status == STATUS_OK) status = making_do_parts(m, cut_part, count);
+  cells_free(&m->cells);
   sum_leaves(m);
-  return status == STATUS_OK && m->keep ? cut_coarser(m) : status;
+  return status;
 }
 
 /* ---- leaves ---- */
@@ -149,91 +113,41 @@ static enum status cut_patches(struct making *m)
 /* Leaves of one patch that are made together before anything else is touched. */
 enum { LEAVES_AT_ONCE = 32 };
 
-struct leaf_run {
-  size_t first, count; /* of the patch's leaves */
-  uint16_t column[LEAVES_AT_ONCE][2];
-};
-
-/* The leaves after the run's; the run is {0} at first. False if there are none. */
-static bool next_run(const struct model_patch *patch, struct leaf_run *run)
-{
-  const size_t row = patch->cut.split[1], all = patch->cut.split[0] * row;
-  run->first += run->count;
-  run->count = all - run->first < LEAVES_AT_ONCE ? all - run->first : LEAVES_AT_ONCE;
-  for (size_t k = 0; k < run->count; k++)
-    run->column[k][0] = (uint16_t)((run->first + k) / row), run->column[k][1] = (uint16_t)((run->first + k) % row);
-  return run->count > 0;
-}
-
-/* Makes leaves that are kept: those of patch p, from number l on. */
-static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, size_t l, void **form)
+/* Makes the leaves of patch p, from number l on, and of their boxes those that there is room for. */
+static void patch_leaves(struct making *m, size_t p, size_t l)
 {
   struct model *model = m->model;
-  const struct model_patch *patch = &model->patches[p];
-  for (struct leaf_run run = {0}; next_run(patch, &run);) {
-    leaves_make(patch, (uint32_t)p, (uint32_t)run.first, run.count, &model->leaves[l]);
-    for (size_t k = 0; k < run.count; k++, l++) {
-      struct leaf *leaf = &model->leaves[l];
-      if (!next_room(arena, form, sizeof *leaf->form)) return STATUS_LIMIT;
-      leaf_set_form(patch, leaf, *form);
-      if (leaf->form) *form = NULL;
-      leaf_box(model, patch, leaf->x, &m->boxes[l]);
+  struct patch_room room;
+  struct leaf made[LEAVES_AT_ONCE];
+  const struct model_patch *patch = model_patch_at(model, (uint32_t)p, &room);
+  const size_t all = cut_leaves(&patch->cut);
+  for (size_t first = 0, count; first < all; first += count) {
+    struct leaf *leaves = m->keep ? &model->leaves[l] : made;
+    count = all - first < LEAVES_AT_ONCE ? all - first : LEAVES_AT_ONCE;
+    leaves_make(patch, (uint32_t)p, (uint32_t)first, count, leaves);
+    for (size_t k = 0; k < count; k++, l++) {
+      const struct leaf *leaf = &leaves[k];
+      if (model->places) model->places[l] = (struct leaf_place){(uint32_t)p, leaf->column_u, leaf->column_v};
+      if (m->boxes) leaf_box(model, patch, leaf->x, &m->boxes[l]);
+      if (!model->oriented) continue;
       leaf_orient(&model->tree, model->error, patch, leaf->slab, &model->oriented[l]);
       model->oriented[l].patch = (uint32_t)p;
     }
   }
-  return STATUS_OK;
 }
 
-/* For leaves that are not kept, sets only where they are, and their boxes. */
-static void place_leaves(struct making *m, size_t p, size_t l)
-{
-  struct model *model = m->model;
-  struct patch_room room;
-  const struct model_patch *patch = &room.patch;
-  patch_make(model, (uint32_t)p, &room.patch, room.rest);
-  const struct part_grid grid = {{patch->cut.split[0], patch->cut.split[1]}, {1, 1}, 0};
-  for (struct leaf_run run = {0}; next_run(patch, &run);) {
-    struct patch_part part[LEAVES_AT_ONCE];
-    patch_parts(patch, &grid, run.count, (const uint16_t(*)[2])run.column, part);
-    for (size_t k = 0; k < run.count; k++, l++) {
-      model->places[l] = (struct leaf_place){(uint32_t)p, run.column[k][0], run.column[k][1]};
-      leaf_box(model, patch, part[k].x, &m->boxes[l]);
-    }
-  }
-}
-
-/* Makes the boxes along leaves that are not kept. */
-static void orient_leaves(struct making *m, size_t p, size_t l)
-{
-  const struct model *model = m->model;
-  struct patch_room room;
-  const struct model_patch *patch = &room.patch;
-  patch_make(model, (uint32_t)p, &room.patch, room.rest);
-  for (struct leaf_run run = {0}; next_run(patch, &run);) {
-    struct leaf_slab slab[LEAVES_AT_ONCE][3];
-    leaf_slabs(patch, run.count, (const uint16_t(*)[2])run.column, slab);
-    for (size_t k = 0; k < run.count; k++, l++) {
-      leaf_orient(&model->tree, model->error, patch, slab[k], &model->oriented[l]);
-      model->oriented[l].patch = (uint32_t)p;
-    }
-  }
-}
-
-/* Makes the leaves of all patches, from where they begin on. If leaves are not kept: first their boxes for the
- * hierarchy; once that is built, and model->oriented has its room, the boxes along them. */
+/* Makes the leaves of all patches, from where they begin on. If leaves are not kept they are made twice: first for their
+ * boxes; once the hierarchy is built, and model->oriented has its room, for the boxes along them. */
 static enum status make_leaves(void *context, size_t worker)
 {
   struct making *m = context;
-  void *form = NULL;
+  (void)worker;
   for (size_t part, p, end; making_take_part(m, &part, &p, &end);) {
     size_t l = m->leaves[part];
     for (; p < end; p++) {
       const struct model_cut *cut = &m->model->cuts[p];
       if (cut->copied) continue;
-      if (!m->keep && m->model->oriented) orient_leaves(m, p, l);
-      else if (!m->keep) place_leaves(m, p, l);
-      else if (keep_leaves(m, m->arenas[worker], p, l, &form) != STATUS_OK) return STATUS_LIMIT;
+      patch_leaves(m, p, l);
       l += cut_leaves(cut);
     }
     if (m->keep) leaf_quadrics(l - m->leaves[part], &m->model->leaves[m->leaves[part]]);
@@ -271,11 +185,10 @@ static bool make_room(struct making *m)
 /* ---- the hierarchy ---- */
 
 /* Makes the boxes along the leaves of inner trees anew, in these trees' frames. */
-static void orient_inner(struct model *model, const struct model_tree *whole)
+static void orient_inner(struct model *model)
 {
-  for (size_t k = 0; k < whole->inner_count; k++) {
-    const struct model_tree *tree = &whole->inner[k];
-    orient_inner(model, tree);
+  for (size_t k = 0; k < model->inner_count; k++) {
+    const struct model_tree *tree = &model->inner[k];
     for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
       const uint32_t child = tree->bvh.nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~BVH_LEAF;
       if (child == box || box >= model->leaf_count) continue;
@@ -300,7 +213,7 @@ static enum status orient(struct making *m)
     model->oriented = oriented_in(model, model->oriented_room);
     status = making_do_parts(m, make_leaves, model->leaf_count);
   }
-  if (status == STATUS_OK) orient_inner(model, &model->tree), orient_inner(model, &model->twins);
+  if (status == STATUS_OK) orient_inner(model);
   return status;
 }
 
@@ -317,17 +230,7 @@ static enum status make_tree(struct making *m)
   return status == STATUS_OK ? orient(m) : status;
 }
 
-/* Makes leaves and hierarchy once more, after patches were cut anew. */
-static enum status make_again(struct making *m)
-{
-  sum_leaves(m);
-  end_arenas(m, false);
-  tree_free(&m->model->tree), tree_free(&m->model->twins);
-  memory_free(m->boxes), m->boxes = NULL;
-  return make_tree(m);
-}
-
-enum status hierarchy_make(struct model *model, const struct team *team, const struct split_limit *limit, bool keep,
+enum status hierarchy_make(struct model *model, const struct team *team, const struct cut_limit *limit, bool keep,
                            size_t keep_most)
 {
   struct making m = {.model = model, .team = team, .limit = *limit, .keep = keep};
@@ -335,10 +238,7 @@ enum status hierarchy_make(struct model *model, const struct team *team, const s
   if (status == STATUS_OK && model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
   end_arenas(&m, m.keep);
   if (status == STATUS_OK) status = make_tree(&m);
-  bool finer = false;
-  if (status == STATUS_OK && m.keep) status = crowd_cut_finer(&m, &finer);
-  if (status == STATUS_OK && finer) status = make_again(&m);
-  if (status == STATUS_OK) status = tree_finish(model);
+  if (status == STATUS_OK) tree_finish(model);
   end_arenas(&m, m.keep);
   memory_free(m.arenas);
   memory_free(m.leaves);

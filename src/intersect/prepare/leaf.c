@@ -1,4 +1,4 @@
-/* Prepares leaves: which parameter to keep, boxes, and the choice of the kernel that makes their numbers. */
+/* Prepares leaves: boxes, the choice of the kernel that makes their numbers, and what resultants are made of. */
 #include "intersect/prepare/leaf.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
 
 /* The narrowest kernel with room for `count`: wide registers with most lanes empty take longer. */
-static const struct leaf_kernel *lanes_for(size_t count)
+static const struct leaf_kernel *kernel_for(size_t count)
 {
 #if defined(PSCN_HAS_AVX512)
   if (count > 4 && KERNEL_RUNS_AVX512) return &leaf_kernel_avx512;
@@ -27,39 +27,34 @@ static const struct leaf_kernel *lanes_for(size_t count)
   return &leaf_kernel_baseline;
 }
 
-static const struct leaf_kernel *kernel_for(size_t count)
+/* Whether the leaf's border (geometry/edges.h) is a point. */
+static bool border_is_point(const struct model_patch *patch, const struct leaf *leaf, int border)
 {
-#if defined(PSCN_HAS_AVX2)
-  if (count == 1 && KERNEL_RUNS_AVX2) return &leaf_kernel_one;
-#endif
-  return lanes_for(count);
+  const int column = border < 2 ? leaf->column_u : leaf->column_v, last = patch->cut.split[border / 2] - 1;
+  return patch->pole[border] && column == (border & 1 ? last : 0);
 }
 
-void patch_parts(const struct model_patch *patch, const struct part_grid *grid, size_t count,
-                 const uint16_t column[][2], struct patch_part out[])
-{
-  kernel_for(count)->parts(patch, grid, count, column, out);
-}
+/* A declared control point carries half a unit in the last place from its decimal form and a few from its transforms. A
+ * patch whose excess over a lower degree is at most this, relative to its largest coordinate, was meant to be of that
+ * degree. */
+#define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
 
-void leaf_slabs(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3])
+static void true_degrees(const struct model_patch *patch, int *m, int *n)
 {
-  kernel_for(count)->slabs(patch, count, column, out);
-}
-
-bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], int border)
-{
-  const int side = border / 2, end = column[side] + span[side];
-  return (border & 1 ? end == patch->cut.split[side] : column[side] == 0) && patch->pole[border];
+  double x[3][4][4], far = 0;
+  memcpy(x, patch->x, sizeof x);
+  for (int k = 0; k < 3; k++) far = real_max(far, fabs(patch->center[k]));
+  patch_bidegree(x, DEGREE_SLACK * (1 + far / patch->scale), m, n);
 }
 
 /* Whether v is kept, not u. u is kept if an edge u = 0 or 1 is collapsed, because r(v) would be identically zero at the
  * apex; v the other way round; otherwise the parameter of higher degree, because the determinant is smaller then. */
-static bool keep_v(const struct model_patch *patch, const double x[3][4][4])
+static bool keep_v(int m, int n, const double x[3][4][4])
 {
   const int rows = patch_border_is_point(x, 0) + patch_border_is_point(x, 1);
   const int columns = patch_border_is_point(x, 2) + patch_border_is_point(x, 3);
   if (rows != columns) return columns > rows;
-  return patch->cut.n > patch->cut.m;
+  return n > m;
 }
 
 /* How far, on [0,1]^2, the polynomial of bidegree (m,n) with the net r is from the bicubic x: the largest distance of x
@@ -83,31 +78,27 @@ static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
   return m == 3 && n == 3 ? 0 : excess + 16 * UNIT_ROUNDOFF * size;
 }
 
-void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct leaf_form *form)
+void leaf_form_make(const struct model_patch *patch, const struct leaf *leaf, struct leaf_form *out)
 {
-  double(*x)[4][4] = (double(*)[4][4])leaf->x;
-  leaf->v_kept = keep_v(patch, (const double(*)[4][4])x);
-  const int kept = leaf->v_kept ? patch->cut.n : patch->cut.m, eliminated = leaf->v_kept ? patch->cut.m : patch->cut.n;
-  leaf->kept_degree = (uint8_t)kept, leaf->eliminated_degree = (uint8_t)eliminated;
-  const uint16_t column[2] = {leaf->column_u, leaf->column_v}, span[2] = {1, 1};
-  const bool low = leaf_border_is_point(patch, column, span, leaf->v_kept ? 2 : 0);
-  const bool high = leaf_border_is_point(patch, column, span, leaf->v_kept ? 3 : 1);
-  leaf->zeros[0] = (uint8_t)(low ? eliminated : 0), leaf->zeros[1] = (uint8_t)(high ? eliminated : 0);
-  leaf->form = NULL;
-  if (patch->cut.m == 3 && patch->cut.n == 3 && !leaf->v_kept) return;
-  form->size = 1, form->excess = 0;
-  for (int k = 0; k < 3; k++) {
+  int m, n;
+  true_degrees(patch, &m, &n);
+  double x[3][4][4];
+  memcpy(x, leaf->x, sizeof x);
+  const bool v_kept = out->v_kept = keep_v(m, n, (const double(*)[4][4])x);
+  out->kept_degree = (uint8_t)(v_kept ? n : m), out->eliminated_degree = (uint8_t)(v_kept ? m : n);
+  for (int end = 0; end < 2; end++)
+    out->zeros[end] = border_is_point(patch, leaf, 2 * v_kept + end) ? out->eliminated_degree : 0;
+  out->own = m == 3 && n == 3 && !v_kept, out->size = 1, out->excess = 0;
+  for (int k = 0; k < 3 && !out->own; k++) {
     double r[4][4];
-    patch_reduce(x[k], patch->cut.m, patch->cut.n, r);
-    form->excess = real_max(form->excess, reduction_excess(r, patch->cut.m, patch->cut.n, x[k]));
-    for (int i = 0; i < 4; i++) {
-      for (int j = 0; j < 4; j++) {
-        form->x[k][4 * i + j] = leaf->v_kept ? r[j][i] : r[i][j];
-        form->size = real_max(form->size, fabs(r[i][j]));
-      }
+    patch_reduce(x[k], m, n, r);
+    out->excess = real_max(out->excess, reduction_excess(r, m, n, x[k]));
+    for (int at = 0; at < 16; at++) {
+      const int i = at / 4, j = at % 4;
+      out->x[k][at] = v_kept ? r[j][i] : r[i][j];
+      out->size = real_max(out->size, fabs(r[i][j]));
     }
   }
-  leaf->form = form;
 }
 
 void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[])
@@ -118,15 +109,14 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
     leaves[k].patch = index, leaves[k].column_u = (uint16_t)(number / row),
     leaves[k].column_v = (uint16_t)(number % row);
     leaves[k].has_quadric = false;
-    const uint16_t column[2] = {leaves[k].column_u, leaves[k].column_v}, span[2] = {1, 1};
     leaves[k].pole = 0;
     for (int border = 3; border >= 0; border--)
-      if (leaf_border_is_point(patch, column, span, border)) leaves[k].pole = (uint8_t)(border + 1);
+      if (border_is_point(patch, &leaves[k], border)) leaves[k].pole = (uint8_t)(border + 1);
   }
   kernel_for(count)->leaves(patch, count, leaves);
 }
 
-void leaf_quadrics(size_t count, struct leaf leaves[]) { lanes_for(count)->quadrics(count, leaves); }
+void leaf_quadrics(size_t count, struct leaf leaves[]) { kernel_for(count)->quadrics(count, leaves); }
 
 /* What rounding `half` to a float, and what it is compared with, may do: see lanes/view.h. */
 #define HALF_GROWTH (1 + 0x1p-20)

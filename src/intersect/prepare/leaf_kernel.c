@@ -1,12 +1,12 @@
-/* The numbers of leaves: nets, bounds, Taylor polynomials, boxes along them. One leaf to a lane, or a single leaf
- * (registers.h).
+/* The numbers of leaves: nets, bounds, Taylor polynomials, boxes along them. One leaf to a lane.
  *
- * Compiled once per instruction set, and once for one leaf, without contraction and without fused multiply-add, so that
- * every leaf has the same bits.
+ * Compiled once per instruction set, without contraction and without fused multiply-add, so that every leaf has the same
+ * bits.
  */
 #include "intersect/prepare/leaf_kernel.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -38,26 +38,26 @@ static void patch_halve(const struct model_patch *patch, int leaves, struct patc
 
 /* Parts of a patch, and what is known of them. */
 struct cut {
-  lane_net head[REGISTERS], tail[REGISTERS], x[REGISTERS]; /* x: their sum */
+  lane_net head[3], tail[3], x[3]; /* x: their sum */
   lanes first[2], second[3];
 };
 
-static struct lane_range range_of(lanes column, int span, int split)
+static struct lane_range range_of(lanes column, int split)
 {
   const double parts = split;
   /* quotients: the last one is 1 for any split */
-  const lanes to = (column + span) / parts;
-  return (struct lane_range){column / parts, to, span == split, lanes_any(to == 1)};
+  const lanes to = (column + 1) / parts;
+  return (struct lane_range){column / parts, to, split == 1, lanes_any(to == 1)};
 }
 
-static void cut_nets(const struct patch_halves *patch, const lanes column[2], const struct part_grid *grid,
-                     struct cut *out)
+static void cut_nets(const struct patch_halves *patch, const lanes column[2], const uint16_t split[2], struct cut *out)
 {
-  const struct lane_range u = range_of(column[0], grid->span[0], grid->split[0]);
-  const struct lane_range v = range_of(column[1], grid->span[1], grid->split[1]);
-  for (int k = 0; k < REGISTERS; k++) {
+  const struct lane_range u = range_of(column[0], split[0]);
+  const struct lane_range v = range_of(column[1], split[1]);
+  for (int k = 0; k < 3; k++) {
     lane_net head, tail;
-    load_net(patch->head, k, head), load_net(patch->tail, k, tail);
+    for (int n = 0; n < 16; n++)
+      head[n / 4][n % 4] = lanes_all(patch->head[k][n]), tail[n / 4][n % 4] = lanes_all(patch->tail[k][n]);
     subnet(head, &u, &v, out->head[k]);
     subnet(tail, &u, &v, out->tail[k]);
     for (int n = 0; n < 16; n++) out->x[k][n / 4][n % 4] = out->head[k][n / 4][n % 4] + out->tail[k][n / 4][n % 4];
@@ -66,23 +66,27 @@ static void cut_nets(const struct patch_halves *patch, const lanes column[2], co
 
 /* ---- bounds ---- */
 
+LANES_INLINE lanes square_of(const lanes v[3]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+LANES_INLINE lanes largest_of(const lanes v[3]) { return lanes_max(v[0], lanes_max(v[1], v[2])); }
+
 /* A bound on the length of the longest: the length itself unless squares lose digits, below some 2^-450 of the
  * patch. */
-LANES_INLINE lanes longest(const lanes v[][REGISTERS], int count)
+LANES_INLINE lanes longest(const lanes v[][3], int count)
 {
-  const lanes square = largest_square(v, count);
-  lanes largest = {0};
+  lanes square = {0}, largest = {0};
+  for (int n = 0; n < count; n++) square = lanes_max(square_of(v[n]), square);
   const lane_mask tiny = square < VECTOR_SQUARE_MIN;
   if (!lanes_any(tiny)) return lanes_sqrt(square);
   for (int n = 0; n < count; n++)
-    for (int k = 0; k < 3; k++) largest = lanes_max(lanes_abs(coordinate(v[n], k)), largest);
+    for (int k = 0; k < 3; k++) largest = lanes_max(lanes_abs(v[n][k]), largest);
   return lanes_select(tiny, 2 * largest, lanes_sqrt(square));
 }
 
-static void first_bounds(lane_net x[REGISTERS], lanes out[2])
+static void first_bounds(lane_net x[3], lanes out[2])
 {
-  lanes du[12][REGISTERS], dv[12][REGISTERS];
-  for (int k = 0; k < REGISTERS; k++) {
+  lanes du[12][3], dv[12][3];
+  for (int k = 0; k < 3; k++) {
     for (int n = 0; n < 12; n++) {
       const int i = n / 3, j = n % 3;
       dv[n][k] = 3 * (x[k][i][j + 1] - x[k][i][j]), du[n][k] = 3 * (x[k][j + 1][i] - x[k][j][i]);
@@ -91,10 +95,10 @@ static void first_bounds(lane_net x[REGISTERS], lanes out[2])
   out[0] = longest(du, 12), out[1] = longest(dv, 12);
 }
 
-static void second_bounds(lane_net x[REGISTERS], lanes out[3])
+static void second_bounds(lane_net x[3], lanes out[3])
 {
-  lanes uu[8][REGISTERS], uv[9][REGISTERS], vv[8][REGISTERS];
-  for (int k = 0; k < REGISTERS; k++) {
+  lanes uu[8][3], uv[9][3], vv[8][3];
+  for (int k = 0; k < 3; k++) {
     for (int n = 0; n < 8; n++) {
       const int i = n / 4, j = n % 4;
       uu[n][k] = 6 * (x[k][i + 2][j] - 2 * x[k][i + 1][j] + x[k][i][j]);
@@ -108,17 +112,13 @@ static void second_bounds(lane_net x[REGISTERS], lanes out[3])
   out[0] = longest(uu, 8), out[1] = longest(uv, 9), out[2] = longest(vv, 8);
 }
 
-/* Bounds for the parts widened by `margin`, in their own parameters. */
-static void bounds(double margin, struct cut *cut)
+/* Bounds for the leaves widened by LEAF_MARGIN, in their own parameters. */
+static void bounds(struct cut *cut)
 {
-  if (!(margin > 0)) {
-    first_bounds(cut->x, cut->first), second_bounds(cut->x, cut->second);
-    return;
-  }
-  lane_net wide[REGISTERS];
-  for (int k = 0; k < REGISTERS; k++) subnet_widened((const lanes(*)[4])cut->x[k], margin, wide[k]);
+  lane_net wide[3];
+  for (int k = 0; k < 3; k++) subnet_widened((const lanes(*)[4])cut->x[k], LEAF_MARGIN, wide[k]);
   first_bounds(wide, cut->first), second_bounds(wide, cut->second);
-  const double shrink = 1 / (1 + 2 * margin);
+  const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
   for (int k = 0; k < 3; k++) cut->second[k] *= shrink * shrink;
   for (int k = 0; k < 2; k++) cut->first[k] *= shrink;
 }
@@ -131,7 +131,7 @@ static const double REACH_POWER[4] = {1, REACH, (REACH) * (REACH), (REACH) * (RE
 
 /* As struct leaf_parts. */
 struct lane_parts {
-  lanes base[4 * REGISTERS], rest[16 * REGISTERS];
+  lanes base[12], rest[48];
   lanes error, last_step, slope_step;
 };
 
@@ -150,18 +150,18 @@ struct lane_parts {
 
 static lanes error_bound(const struct lane_parts *parts, bool rounded)
 {
-  lanes rest[REGISTERS], whole[REGISTERS];
-  for (int k = 0; k < REGISTERS; k++) {
+  lanes rest[3], whole[3];
+  for (int k = 0; k < 3; k++) {
     lanes sum = {0}, roundings = {0}, size[4];
     for (int n = 0; n < 16; n++) {
-      const lanes term = REACH_POWER[n / 4] * REACH_POWER[n % 4] * lanes_abs(parts->rest[REGISTERS * n + k]);
+      const lanes term = REACH_POWER[n / 4] * REACH_POWER[n % 4] * lanes_abs(parts->rest[3 * n + k]);
       sum += term, roundings += TERM_ROUNDINGS(n / 4 + n % 4) * term;
     }
-    for (int n = 1; n < 4; n++) size[n] = lanes_abs(parts->base[REGISTERS * n + k]);
+    for (int n = 1; n < 4; n++) size[n] = lanes_abs(parts->base[3 * n + k]);
     rest[k] = roundings, whole[k] = sum + REACH * (size[1] + size[2] + REACH * size[3]);
   }
-  if (!rounded) return UNIT_ROUNDOFF * coordinates_max(rest);
-  return UNIT_ROUNDOFF * (coordinates_max(rest) + CUT_ROUNDINGS * (1 + coordinates_max(whole)));
+  if (!rounded) return UNIT_ROUNDOFF * largest_of(rest);
+  return UNIT_ROUNDOFF * (largest_of(rest) + CUT_ROUNDINGS * (1 + largest_of(whole)));
 }
 
 /* Twice the error of a root, in the patch's frame, after the last step of Newton's method: well below its rounding. */
@@ -170,16 +170,16 @@ static lanes error_bound(const struct lane_parts *parts, bool rounded)
 static void set_parts(const struct cut *cut, bool exact, struct lane_parts *out)
 {
   static const int bilinear[4] = {0, 4, 1, 5};
-  for (int k = 0; k < REGISTERS; k++) {
+  for (int k = 0; k < 3; k++) {
     lanes head[16], tail[16];
     taylor_net((const lanes(*)[4])cut->head[k], head);
     taylor_net((const lanes(*)[4])cut->tail[k], tail);
     for (int n = 0; n < 4; n++) {
       lanes *of = &head[bilinear[n]];
-      out->base[REGISTERS * n + k] = lanes_rint(*of / LEAF_GRAIN) * LEAF_GRAIN;
-      *of -= out->base[REGISTERS * n + k];
+      out->base[3 * n + k] = lanes_rint(*of / LEAF_GRAIN) * LEAF_GRAIN;
+      *of -= out->base[3 * n + k];
     }
-    for (int n = 0; n < 16; n++) out->rest[REGISTERS * n + k] = head[n] + tail[n];
+    for (int n = 0; n < 16; n++) out->rest[3 * n + k] = head[n] + tail[n];
   }
   const lanes second = cut->second[0] + 2 * cut->second[1] + cut->second[2];
   const lanes first = lanes_min(cut->first[0], cut->first[1]), least = lanes_all(LAST_STEP_CURVE);
@@ -196,38 +196,41 @@ static void set_parts(const struct cut *cut, bool exact, struct lane_parts *out)
 /* Below this |Su x Sv| has no reciprocal, for the net is nearly a point. */
 #define LEAST_NORMAL 0x1p-1000
 
+LANES_INLINE void cross(const lanes a[3], const lanes b[3], lanes out[3])
+{
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
 /* The lanes on which two vectors tell no normal. */
-LANES_INLINE lane_mask without_normal(const lanes a[REGISTERS], const lanes b[REGISTERS], lanes normal[1][REGISTERS])
+LANES_INLINE lane_mask without_normal(const lanes a[3], const lanes b[3], lanes normal[1][3])
 {
   cross(a, b, normal[0]);
-  const lanes area = longest((const lanes(*)[REGISTERS])normal, 1);
+  const lanes area = longest((const lanes(*)[3])normal, 1);
   return ~(area > lanes_max(LEAST_AREA * (square_of(a) + square_of(b)), lanes_all(LEAST_NORMAL)));
 }
 
 /* If a leaf is a line, or nearly, the axis farthest from it replaces the shorter of both vectors. */
-__attribute__((noinline)) static void widen_line(lane_mask line, lanes u[REGISTERS], lanes v[REGISTERS])
+__attribute__((noinline)) static void widen_line(lane_mask line, lanes u[3], lanes v[3])
 {
   const lane_mask b_longer = square_of(v) > square_of(u);
-  lanes a[3], b[3], size[3], taken = {0};
-  for (int k = 0; k < 3; k++) {
-    a[k] = coordinate(u, k), b[k] = coordinate(v, k);
-    size[k] = lanes_abs(lanes_select(b_longer, b[k], a[k]));
-  }
+  lanes size[3], taken = {0};
+  for (int k = 0; k < 3; k++) size[k] = lanes_abs(lanes_select(b_longer, v[k], u[k]));
   const lanes least = lanes_min(size[0], lanes_min(size[1], size[2]));
   const lanes length = lanes_max(size[0], lanes_max(size[1], size[2]));
   for (int k = 0; k < 3; k++) {
     const lanes across = lanes_select((size[k] == least) & (taken == 0), length, lanes_all(0));
     taken += across;
-    a[k] = lanes_select(line & b_longer, across, a[k]), b[k] = lanes_select(line & ~b_longer, across, b[k]);
+    u[k] = lanes_select(line & b_longer, across, u[k]), v[k] = lanes_select(line & ~b_longer, across, v[k]);
   }
-  from_coordinates(a, u), from_coordinates(b, v);
 }
 
 /* Sets the slabs. They tell nothing if the net's corners tell no direction in its middle. */
-static void set_slabs(lane_net x[REGISTERS], struct lane_slab out[3])
+static void set_slabs(lane_net x[3], struct lane_slab out[3])
 {
-  lanes along_u[REGISTERS], along_v[REGISTERS], normal[1][REGISTERS];
-  for (int k = 0; k < REGISTERS; k++) {
+  lanes along_u[3], along_v[3], normal[1][3];
+  for (int k = 0; k < 3; k++) {
     const lanes *corner = x[k][0], *other = x[k][3];
     along_u[k] = 0.5 * ((other[0] - corner[0]) + (other[3] - corner[3]));
     along_v[k] = 0.5 * ((corner[3] - corner[0]) + (other[3] - other[0]));
@@ -238,14 +241,19 @@ static void set_slabs(lane_net x[REGISTERS], struct lane_slab out[3])
     flat = without_normal(along_u, along_v, normal);
   }
   for (int q = 0; q < 3; q++) {
-    lanes *g = out[q].g, lo, hi, of[REGISTERS], size[REGISTERS];
+    lanes *g = out[q].g, lo, hi, of[3], size[3];
     if (q == 0) memcpy(of, normal[0], sizeof of);
     else if (q == 1) cross(along_v, out[0].g, of);
     else cross(out[0].g, along_u, of);
-    for (int k = 0; k < REGISTERS; k++) size[k] = lanes_abs(of[k]);
-    const lanes inverse = 1 / coordinates_sum(size);
-    for (int k = 0; k < REGISTERS; k++) g[k] = lanes_select(flat, lanes_all(0), inverse * of[k]);
-    net_range(g, x, &lo, &hi);
+    for (int k = 0; k < 3; k++) size[k] = lanes_abs(of[k]);
+    const lanes inverse = 1 / (size[0] + size[1] + size[2]);
+    for (int k = 0; k < 3; k++) g[k] = lanes_select(flat, lanes_all(0), inverse * of[k]);
+    lo = lanes_all(INFINITY), hi = lanes_all(-INFINITY);
+    for (int n = 0; n < 16; n++) {
+      const int i = n / 4, j = n % 4;
+      const lanes value = g[0] * x[0][i][j] + g[1] * x[1][i][j] + g[2] * x[2][i][j];
+      lo = lanes_min(lo, value), hi = lanes_max(hi, value);
+    }
     out[q].offset = 0.5 * (lo + hi);
     out[q].half = lanes_select(flat, lanes_all(INFINITY), 0.5 * (hi - lo) + 8 * UNIT_ROUNDOFF); /* |x| <= 1 */
   }
@@ -253,117 +261,14 @@ static void set_slabs(lane_net x[REGISTERS], struct lane_slab out[3])
 
 /* ---- the face ---- */
 
-/* The columns of up to LANES parts, `stride` numbers apart; lanes without a part have the first's. */
-static void load_columns(const uint16_t *column, size_t stride, size_t count, lanes out[2])
-{
-  for (size_t lane = 0; lane < LANES; lane++)
-    for (int side = 0; side < 2; side++) out[side][lane] = column[(lane < count ? lane : 0) * stride + (size_t)side];
-}
-
-/* Store nets, boxes along them and Taylor coefficients of `here` parts, `stride` or LEAF doubles apart. */
-#ifdef PSCN_ONE_LEAF
-
-LANES_INLINE void store_nets(const struct cut *cut, size_t here, double (*to)[16], size_t stride)
-{
-  (void)here, (void)stride;
-  for (int i = 0; i < 4; i++) {
-    lanes x[4];
-    memcpy(x, cut->x[0][i], sizeof x);
-    four_doubles_turn(x);
-    for (int k = 0; k < 3; k++) _mm256_storeu_pd(&to[k][4 * i], x[k]);
-  }
-}
-
-LANES_INLINE void store_slabs(const struct lane_slab slab[3], size_t here, struct leaf_slab *to, size_t stride)
-{
-  (void)here, (void)stride;
-  for (int q = 0; q < 3; q++) {
-    for (int k = 0; k < 3; k++) to[q].g[k] = slab[q].g[0][k];
-    to[q].offset = slab[q].offset[0], to[q].half = slab[q].half[0];
-  }
-}
-
-/* Writes one number too many, over the next one, which is stored later. */
-LANES_INLINE void store_taylor(const struct lane_parts *parts, size_t here, struct leaf *leaves)
-{
-  (void)here;
-  for (int n = 0; n < 4; n++) _mm256_storeu_pd(leaves->parts.base[n], parts->base[n]);
-  for (int n = 0; n < 16; n++) _mm256_storeu_pd(leaves->parts.rest[n], parts->rest[n]);
-}
-
-#else
-
-LANES_INLINE void store_nets(const struct cut *cut, size_t here, double (*to)[16], size_t stride)
-{
-  lanes_scatter(cut->x[0][0], 48, here, to[0], stride);
-}
-
-LANES_INLINE void store_slabs(const struct lane_slab slab[3], size_t here, struct leaf_slab *to, size_t stride)
-{
-  lanes_scatter(slab->g, 15, here, to->g, stride);
-}
-
-LANES_INLINE void store_taylor(const struct lane_parts *parts, size_t here, struct leaf *leaves)
-{
-  lanes_scatter(parts->base, 60, here, leaves->parts.base[0], LEAF);
-}
-
-#endif
-
-static void parts(const struct model_patch *patch, const struct part_grid *grid, size_t count,
-                  const uint16_t column[][2], struct patch_part out[])
-{
-  enum { PART = sizeof *out / sizeof(double) };
-  static_assert(sizeof *out == PART * sizeof(double) && PART == 48 + 2 + 3, "nothing but doubles");
-  struct patch_halves halves;
-  patch_halve(patch, grid->split[0] * grid->split[1], &halves);
-  while (count > 0) {
-    const size_t here = count < LANES ? count : LANES;
-    struct cut cut;
-    lanes at[2], derivatives[5];
-    load_columns(column[0], 2, here, at);
-    cut_nets(&halves, at, grid, &cut);
-    bounds(grid->margin, &cut);
-    memcpy(derivatives, cut.first, sizeof cut.first), memcpy(derivatives + 2, cut.second, sizeof cut.second);
-    store_nets(&cut, here, out->x, PART);
-    lanes_scatter(derivatives, 5, here, out->first, PART);
-    out += here, column += here, count -= here;
-  }
-}
-
-static struct part_grid leaf_grid(const struct model_patch *patch)
-{
-  return (struct part_grid){{patch->cut.split[0], patch->cut.split[1]}, {1, 1}, LEAF_MARGIN};
-}
-
-static void slabs(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3])
-{
-  enum { SLABS = 3 * sizeof(struct leaf_slab) / sizeof(double) };
-  static_assert(SLABS == 15, "nothing but doubles, in a row");
-  const struct part_grid grid = leaf_grid(patch);
-  struct patch_halves halves;
-  patch_halve(patch, grid.split[0] * grid.split[1], &halves);
-  while (count > 0) {
-    const size_t here = count < LANES ? count : LANES;
-    struct cut cut;
-    struct lane_slab slab[3];
-    lanes at[2];
-    load_columns(column[0], 2, here, at);
-    cut_nets(&halves, at, &grid, &cut);
-    set_slabs(cut.x, slab);
-    store_slabs(slab, here, *out, SLABS);
-    out += here, column += here, count -= here;
-  }
-}
-
 static_assert(offsetof(struct leaf_parts, error) == sizeof(double[60]), "stored in a row");
 
 static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], const struct lane_parts *parts,
                          bool exact, size_t here, struct leaf leaves[])
 {
-  store_nets(cut, here, leaves->x, LEAF);
-  store_slabs(slab, here, leaves->slab, LEAF);
-  store_taylor(parts, here, leaves);
+  lanes_scatter(cut->x[0][0], 48, here, leaves->x[0], LEAF);
+  lanes_scatter(slab->g, 15, here, leaves->slab->g, LEAF);
+  lanes_scatter(parts->base, 60, here, leaves->parts.base[0], LEAF);
   for (size_t lane = 0; lane < here; lane++) {
     struct leaf *leaf = &leaves[lane];
     for (int k = 0; k < 2; k++) leaf->first[k] = cut->first[k][lane];
@@ -376,8 +281,8 @@ static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], 
 
 static void leaves(const struct model_patch *patch, size_t count, struct leaf leaves[])
 {
-  const struct part_grid grid = leaf_grid(patch);
-  const int all = grid.split[0] * grid.split[1];
+  const uint16_t *split = patch->cut.split;
+  const int all = split[0] * split[1];
   const bool exact = split_is_exact(all);
   struct patch_halves halves;
   patch_halve(patch, all, &halves);
@@ -386,10 +291,15 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
     struct cut cut;
     struct lane_slab slab[3];
     struct lane_parts parts;
+    double column[2][LANES];
     lanes at[2];
-    load_columns(&leaves->column_u, sizeof *leaves / sizeof leaves->column_u, here, at);
-    cut_nets(&halves, at, &grid, &cut);
-    bounds(grid.margin, &cut);
+    for (size_t lane = 0; lane < LANES; lane++) { /* lanes without a leaf have the first's */
+      const struct leaf *leaf = &leaves[lane < here ? lane : 0];
+      column[0][lane] = leaf->column_u, column[1][lane] = leaf->column_v;
+    }
+    memcpy(at, column, sizeof at);
+    cut_nets(&halves, at, split, &cut);
+    bounds(&cut);
     set_parts(&cut, exact, &parts);
     set_slabs(cut.x, slab);
     leaves_store(&cut, slab, &parts, exact, here, leaves);
@@ -397,8 +307,4 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
   }
 }
 
-#ifdef PSCN_ONE_LEAF
-const struct leaf_kernel leaf_kernel_one = {parts, slabs, leaves, NULL};
-#else
-const struct leaf_kernel KERNEL(leaf_kernel) = {parts, slabs, leaves, quadrics_make};
-#endif
+const struct leaf_kernel KERNEL(leaf_kernel) = {leaves, quadrics_make};

@@ -9,11 +9,6 @@
 #include "intersect/prepare/leaf.h"
 
 struct leaf_kernel {
-  /* patch_parts, leaf.h. */
-  void (*parts)(const struct model_patch *patch, const struct part_grid *grid, size_t count, const uint16_t column[][2],
-                struct patch_part out[]);
-  /* leaf_slabs, leaf.h. */
-  void (*slabs)(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3]);
   /* All doubles of a leaf except its quadric, and `final`, for leaves of one patch whose columns are set. */
   void (*leaves)(const struct model_patch *patch, size_t count, struct leaf leaves[]);
   /* leaf_quadrics, leaf.h. */
@@ -21,8 +16,5 @@ struct leaf_kernel {
 };
 
 extern const struct leaf_kernel leaf_kernel_baseline, leaf_kernel_avx2, leaf_kernel_avx512;
-
-/* For one part or leaf, with AVX2; makes no quadrics. */
-extern const struct leaf_kernel leaf_kernel_one;
 
 #endif

@@ -12,14 +12,13 @@
 #include "base/kernel.h"
 #include "base/lanes.h"
 #include "intersect/model.h"
-#include "intersect/prepare/registers.h"
 
 /* One of three coordinates, or any other function of the surface: net[i][j], as in geometry/patch.h. */
 typedef lanes lane_net[4][4];
 
 /* As struct leaf_slab. */
 struct lane_slab {
-  lanes g[REGISTERS], offset, half;
+  lanes g[3], offset, half;
 };
 
 /* ---- parts ---- */

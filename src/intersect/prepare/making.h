@@ -8,17 +8,18 @@
 #include <stdatomic.h>
 
 #include "intersect/model.h"
+#include "intersect/prepare/cut.h"
 #include "intersect/prepare/hierarchy.h"
 
 struct making {
   struct model *model;
   const struct team *team;
-  struct split_limit limit;
+  struct cut_limit limit;
   bool keep;               /* whether patches and leaves are kept */
   struct arena **arenas;   /* one a thread, for what is kept: patches first, then leaves */
   size_t part, part_count; /* patches in a part; threads take whole parts */
   size_t *leaves;          /* in each part; later before it */
-  struct crowd *crowds;    /* the patches', while crowd.c finds them */
+  struct cells cells;      /* while patches are cut */
   struct bvh_box *boxes;   /* if leaves are not kept, with room for boxes along them */
   atomic_size_t taken;     /* parts */
 };

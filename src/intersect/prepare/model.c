@@ -14,32 +14,18 @@
 #include "intersect/prepare/patch.h"
 #include "intersect/prepare/tree.h"
 
-enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
+/* Leaves of all patches with `split auto` together, since they cost memory; and those of one patch that is kept. */
+enum { LEAVES_MAX = 1 << 19, PATCH_LEAVES_MAX = EXACT_LEAVES };
 
-/* On a leaf that turns by AUTO_TURN, one run of Newton's method is enough for all but grazing rays. If there would be
- * very many leaves, and if they are made when a ray comes to them, fewer that turn farther are better; much farther,
- * and rays under a low sun pay for it. */
-#define AUTO_TURN 0.25
-#define COARSE_TURNS \
-  {                  \
-    0.42, 0.84       \
-  }
-#define BOXES_TURN 1.0
+/* Leaves that are not kept take only their boxes, an eighth of a leaf: with this many a patch takes a kilobyte. */
+enum { BOXES_MAX = 4 };
 
-/* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory and
- * time to make. The limit on the split is halved until they fit. If patches are bent all over there may be more
- * leaves. */
-enum { AUTO_LEAVES_MAX = 1 << 18, BENT_LEAVES_MAX = 1 << 19 };
+/* Up to so many patches are kept; copies share leaves if there are more patches than UNSHARED_MAX. */
+enum { KEPT_PATCHES_MAX = 1 << 16, UNSHARED_MAX = 1 << 10 };
 
-/* Patches are kept as long as they can have two leaves a side. */
-enum { KEPT_PATCHES_MAX = AUTO_LEAVES_MAX / 4 };
-
-/* The limit for objects that are copied, if leaves of other patches are not kept; theirs are. */
-enum { OBJECT_LEAVES_MAX = 1 << 20 };
-
-/* Leaves that are not kept take only their boxes, an eighth of a leaf. With this many columns a side, or its square
- * along the long side of a slender patch, a patch takes a kilobyte at most. */
-enum { BOXES_SPLIT_MAX = 2 };
+/* ns that making a leaf takes; and the rays of a picture, which meet all patches alike. */
+#define LEAF_TIME 1200.0
+#define PICTURE_RAYS 0x1p19
 
 /* In a scene that reaches farther, sums and products of its own size overflow: nothing is proven. */
 #define LARGEST_SIZE 0x1p1020
@@ -64,15 +50,11 @@ static void set_frame(struct model *model)
   model->tree.frame = real_power_of_two(exponent);
 }
 
-static int most_split(int most, size_t patch_count, size_t leaves_max)
+static struct cut_limit cut_limit(size_t patch_count, bool keep, int most_split)
 {
-  while (most > 1 && patch_count * (size_t)(most * most) > leaves_max) most /= 2;
-  return most;
-}
-
-static double most_leaves(size_t patch_count, size_t leaves_max)
-{
-  return patch_count > 0 ? (double)leaves_max / (double)patch_count : 0;
+  int most = most_split * most_split < PATCH_LEAVES_MAX ? most_split * most_split : PATCH_LEAVES_MAX;
+  while (most > BOXES_MAX && (!keep || (size_t)most * patch_count > LEAVES_MAX)) most /= 2;
+  return (struct cut_limit){LEAF_TIME * (double)patch_count / PICTURE_RAYS, most};
 }
 
 /* A model with its frame, otherwise empty. */
@@ -91,7 +73,7 @@ static struct model *model_begin(const struct scene *scene)
   return model;
 }
 
-enum status model_create_object(const struct scene *nets, const struct team *team, const struct split_limit *limit,
+enum status model_create_object(const struct scene *nets, const struct team *team, const struct cut_limit *limit,
                                 struct model_object *object)
 {
   struct model *model = model_begin(nets);
@@ -131,14 +113,6 @@ static enum status mark_planes(struct model *model)
   return status;
 }
 
-/* Lowers the limit to `most` leaves a side. */
-static void limit_to(int most, struct split_limit *limit)
-{
-  if (limit->any > most) limit->any = most;
-  if (limit->bent > most) limit->bent = most;
-  limit->leaves = real_min(limit->leaves, most * most);
-}
-
 static enum status prepare(struct model *model, const struct team *team)
 {
   const struct scene *scene = model->scene;
@@ -151,24 +125,15 @@ static enum status prepare(struct model *model, const struct team *team)
                          scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
-  if (most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX) < AUTO_SPLIT_MAX) {
-    status = copies_choose(model, KEPT_PATCHES_MAX, &own);
-    if (status != STATUS_OK) return status;
-  }
-  struct split_limit limit = {AUTO_TURN, COARSE_TURNS, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
-                              most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX), most_leaves(own, AUTO_LEAVES_MAX)};
+  if (own > UNSHARED_MAX) status = copies_choose(model, KEPT_PATCHES_MAX, &own);
+  if (status != STATUS_OK) return status;
   const bool keep = own <= KEPT_PATCHES_MAX && !model->never_keep;
-  if (!keep) {
-    limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, OBJECT_LEAVES_MAX);
-    limit.leaves = most_leaves(own, OBJECT_LEAVES_MAX);
-  }
-  limit_to(model->most_split, &limit);
-  status = copies_prepare(model, team, &limit);
-  if (!keep)
-    limit = (struct split_limit){
-      BOXES_TURN, {BOXES_TURN, BOXES_TURN}, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX * BOXES_SPLIT_MAX};
-  limit_to(model->most_split, &limit);
-  return status == STATUS_OK ? hierarchy_make(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
+  for (size_t p = 0; p < scene->patch_count && model->twin; p++) own -= model->twin[p] && !model->cuts[p].copied;
+  const struct cut_limit of_object = cut_limit(own, true, model->most_split),
+                         limit = cut_limit(own, keep, model->most_split);
+  status = copies_prepare(model, team, &of_object);
+  if (status != STATUS_OK) return status;
+  return hierarchy_make(model, team, &limit, keep, LEAVES_MAX);
 }
 
 /* The model with leaves no finer than `most_split`. */
@@ -214,14 +179,13 @@ void model_make_leaf(const struct model *model, uint32_t number, struct leaf_roo
   patch_make(model, place->patch, &out->of.patch, out->of.rest);
   const uint32_t row = out->of.patch.cut.split[1];
   leaves_make(&out->of.patch, place->patch, place->column_u * row + place->column_v, 1, &out->leaf);
-  leaf_set_form(&out->of.patch, &out->leaf, &out->form);
 }
 
 void model_destroy(struct model *model)
 {
   if (!model) return;
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
-  tree_free(&model->tree), tree_free(&model->twins);
+  tree_free(model);
   memory_free(model->oriented_room);
   memory_free(model->plane);
   memory_free(model->planes);

@@ -28,17 +28,6 @@ bool patch_on_lanes(const struct method *method);
 /* Makes the patch of the scene; its rest, if it has one, in `rest`. */
 void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4]);
 
-/* The same the first time: unless the patch is copied, also finds degree and split, and sets its cut. */
-void patch_make_first(const struct model *model, uint32_t index, const struct split_limit *limit,
-                      struct model_patch *out, double rest[3][4][4]);
-
-/* Sets split and cut anew, for a patch that is not copied, if `split` is auto. */
-void patch_cut_again(const struct model *model, uint32_t index, const struct split_limit *limit,
-                     struct model_patch *patch);
-
-/* Sets them to this split. */
-void patch_cut_as(const struct model *model, uint32_t index, const uint16_t split[2], struct model_patch *patch);
-
 /* The area of the patch's control net in its frame: about that of the patch, and hardly ever less. */
 double patch_net_area(const struct model_patch *patch);
 

@@ -25,112 +25,121 @@ static double box_extent(const struct bvh_box *box)
   return extent;
 }
 
-/* Boxes that get their own tree: index[first .. first + count - 1]. */
-struct box_group {
-  size_t first, count;
+/* Boxes that get a tree: index[0..count-1]. */
+struct part {
+  uint32_t *index;
+  size_t count;
   struct bvh_box hull;
+  bool twins; /* part of model->twins, not of model->tree */
 };
 
-/* The boxes of a tree, and the groups of them that are set apart. */
-struct grouping {
-  const struct bvh_box *boxes;
-  uint32_t *index;
-  double frame;
-  struct box_group *groups;
+/* All boxes of the model, given less tree_about, and the parts that they fall into. The first ones are those of
+ * model->tree, with `twins` of model->twins; the others are set apart from these or from one another. */
+struct parts {
+  const struct model *model;
+  struct bvh_box *boxes;
+  double about[3];
+  const struct team *team;
+  struct part *at;
   size_t count, room;
   bool failed; /* memory was short */
 };
 
-static void group_add(struct grouping *g, const struct box_group *group)
-{
-  struct box_group *grown = memory_grow(g->groups, &g->room, g->count + 1, sizeof *grown);
-  g->failed |= !grown;
-  if (grown) g->groups = grown, g->groups[g->count++] = *group;
-}
-
-static struct bvh_box hull_of(const struct grouping *g, size_t first, size_t count)
+static struct bvh_box hull_of(const struct parts *all, const uint32_t index[], size_t count)
 {
   struct bvh_box hull = BVH_EMPTY;
-  for (size_t k = first; k < first + count; k++) bvh_box_add(&hull, &g->boxes[g->index[k]]);
+  for (size_t k = 0; k < count; k++) bvh_box_add(&hull, &all->boxes[index[k]]);
   return hull;
 }
 
+static void part_add(struct parts *all, uint32_t *index, size_t count, bool twins)
+{
+  struct part *grown = memory_grow(all->at, &all->room, all->count + 1, sizeof *grown);
+  all->failed |= !grown;
+  if (!grown) return;
+  all->at = grown;
+  grown[all->count++] = (struct part){index, count, hull_of(all, index, count), twins};
+}
+
 /* Moves boxes larger than `extent` to the front; returns how many there are. */
-static size_t larger_first(struct grouping *g, size_t first, size_t count, double extent)
+static size_t larger_first(const struct parts *all, uint32_t index[], size_t count, double extent)
 {
   size_t large = 0;
   for (size_t k = 0; k < count; k++) {
-    const uint32_t here = g->index[first + k];
-    if (box_extent(&g->boxes[here]) > extent)
-      g->index[first + k] = g->index[first + large], g->index[first + large++] = here;
+    const uint32_t here = index[k];
+    if (box_extent(&all->boxes[here]) > extent) index[k] = index[large], index[large++] = here;
   }
   return large;
 }
 
 /* Moves boxes whose centers are below `place` on the axis to the front; returns how many there are. */
-static size_t lower_first(struct grouping *g, const struct box_group *all, int axis, double place)
+static size_t lower_first(const struct parts *all, uint32_t index[], size_t count, int axis, double place)
 {
   size_t lower = 0;
-  for (size_t k = all->first; k < all->first + all->count; k++) {
-    const uint32_t here = g->index[k];
-    if (box_center(&g->boxes[here], axis) < place)
-      g->index[k] = g->index[all->first + lower], g->index[all->first + lower++] = here;
+  for (size_t k = 0; k < count; k++) {
+    const uint32_t here = index[k];
+    if (box_center(&all->boxes[here], axis) < place) index[k] = index[lower], index[lower++] = here;
   }
   return lower;
 }
 
 /* Finds the groups among these boxes, which are tiny, by halving the space that they fill. Both halves have some,
  * because the hull is far larger than the boxes. */
-static void find_groups(struct grouping *g, size_t first, size_t count)
+static void find_groups(struct parts *all, double frame, uint32_t index[], size_t count, bool twins)
 {
   if (count < GROUP_LEAST) return;
-  const struct box_group all = {first, count, hull_of(g, first, count)};
-  if (box_extent(&all.hull) <= SMALL_PART * g->frame) {
-    group_add(g, &all);
+  const struct bvh_box hull = hull_of(all, index, count);
+  if (box_extent(&hull) <= SMALL_PART * frame) {
+    part_add(all, index, count, twins);
     return;
   }
   int axis = 0;
   for (int k = 1; k < 3; k++)
-    if (all.hull.hi[k] - all.hull.lo[k] > all.hull.hi[axis] - all.hull.lo[axis]) axis = k;
-  const size_t lower = lower_first(g, &all, axis, box_center(&all.hull, axis));
-  find_groups(g, first, lower);
-  find_groups(g, first + lower, count - lower);
+    if (hull.hi[k] - hull.lo[k] > hull.hi[axis] - hull.lo[axis]) axis = k;
+  const size_t lower = lower_first(all, index, count, axis, box_center(&hull, axis));
+  find_groups(all, frame, index, lower, twins);
+  find_groups(all, frame, index + lower, count - lower, twins);
 }
 
-/* Moves the groups, which are in order, behind all other boxes; returns how many these are. */
-static size_t groups_last(struct grouping *g, size_t count)
+/* Moves the parts from number `first` on, which are in order, behind all other boxes of `from`, which no longer has
+ * them. */
+static void parts_last(struct parts *all, struct part *from, size_t first)
 {
-  uint32_t *moved = memory_alloc(count, sizeof *moved);
-  g->failed |= !moved;
-  if (!moved) return count;
-  size_t stay = 0, behind = 0, from = 0;
-  for (size_t n = 0; n < g->count; n++) {
-    struct box_group *group = &g->groups[n];
-    memcpy(moved + behind, g->index + group->first, group->count * sizeof *moved);
-    for (; from < group->first; from++) g->index[stay++] = g->index[from];
-    from += group->count, behind += group->count;
+  uint32_t *moved = memory_alloc(from->count, sizeof *moved);
+  all->failed |= !moved;
+  if (!moved) return;
+  size_t stay = 0, behind = 0, next = 0;
+  for (size_t n = first; n < all->count; n++) {
+    const struct part *part = &all->at[n];
+    const size_t begin = (size_t)(part->index - from->index);
+    memcpy(moved + behind, part->index, part->count * sizeof *moved);
+    for (; next < begin; next++) from->index[stay++] = from->index[next];
+    next += part->count, behind += part->count;
   }
-  for (; from < count; from++) g->index[stay++] = g->index[from];
-  memcpy(g->index + stay, moved, behind * sizeof *moved);
+  for (; next < from->count; next++) from->index[stay++] = from->index[next];
+  memcpy(from->index + stay, moved, behind * sizeof *moved);
   memory_free(moved);
-  for (size_t n = 0, first = stay; n < g->count; first += g->groups[n++].count) g->groups[n].first = first;
-  return stay;
+  from->count = stay;
+  for (uint32_t *at = from->index + stay; first < all->count; at += all->at[first++].count) all->at[first].index = at;
 }
 
-/* Finds the groups to set apart, and moves them to the end; returns how many boxes stay. */
-static size_t set_apart(struct grouping *g, size_t count)
+/* Sets groups of a part's boxes apart. */
+static void set_apart(struct parts *all, size_t number, double frame)
 {
-  const size_t large = larger_first(g, 0, count, SMALL_BOX * g->frame);
-  const struct box_group small = {large, count - large, hull_of(g, large, count - large)};
-  if (large > 0 && small.count > 1 && box_extent(&small.hull) <= SMALL_PART * g->frame) {
-    group_add(g, &small);
-    return large;
+  const struct part part = all->at[number];
+  const size_t first = all->count, large = larger_first(all, part.index, part.count, SMALL_BOX * frame);
+  uint32_t *small = part.index + large;
+  const size_t count = part.count - large;
+  const struct bvh_box hull = hull_of(all, small, count);
+  if (large > 0 && count > 1 && box_extent(&hull) <= SMALL_PART * frame) {
+    part_add(all, small, count, part.twins);
+  } else {
+    const size_t larger = larger_first(all, small, count, TINY_BOX * frame);
+    find_groups(all, frame, small + larger, count - larger, part.twins);
+    if (all->count == first + 1 && all->at[first].count == part.count)
+      all->count = first; /* all of them: the frame is as fine as doubles can tell */
   }
-  const size_t larger = large + larger_first(g, large, small.count, TINY_BOX * g->frame);
-  find_groups(g, larger, count - larger);
-  if (g->count == 1 && g->groups->count == count)
-    g->count = 0; /* all of them: the frame is as fine as doubles can tell */
-  return g->count > 0 ? groups_last(g, count) : count;
+  if (all->count > first) parts_last(all, &all->at[number], first);
 }
 
 void tree_box(const double middle[3], double frame, struct bvh_box *box)
@@ -141,65 +150,67 @@ void tree_box(const double middle[3], double frame, struct bvh_box *box)
   }
 }
 
-/* What the trees are built from: all boxes of the model, given less tree_about. */
-struct building {
-  const struct model *model;
-  struct bvh_box *boxes;
-  size_t count;
-  double about[3];
-  const struct team *team;
-};
-
-/* Gives the leaves of the hierarchy the numbers of their boxes. Its last boxes are the hulls of groups, if any. */
-static void renumber_leaves(const struct building *b, struct bvh *bvh, const uint32_t index[], size_t stay)
+/* Gives the leaves of the hierarchy the numbers of their boxes. */
+static void renumber_leaves(struct bvh *bvh, const uint32_t number[])
 {
-  for (size_t n = 0; n < bvh->node_count; n++) {
-    for (int side = 0; side < BVH_WIDTH; side++) {
-      uint32_t *child = &bvh->nodes[n].child[side];
-      const uint32_t box = *child & ~BVH_LEAF;
-      const uint32_t number = box < stay ? index[box] : (uint32_t)(b->count + (box - stay));
-      if (*child & BVH_LEAF) *child = BVH_LEAF | number;
-    }
+  for (size_t n = 0; n < BVH_WIDTH * bvh->node_count; n++) {
+    uint32_t *child = &bvh->nodes[n / BVH_WIDTH].child[n % BVH_WIDTH];
+    if (*child & BVH_LEAF) *child = BVH_LEAF | number[*child & ~BVH_LEAF];
   }
 }
 
-static enum status build(const struct building *b, int depth, uint32_t index[], size_t count, const double middle[3],
-                         double frame, struct model_tree *out);
-
-/* Builds the hierarchy of the boxes that stay in that frame, and of the groups' hulls. */
-static enum status build_outer(const struct building *b, const struct grouping *g, size_t stay, const double middle[3],
-                               struct model_tree *out)
+/* Builds the tree of a part, in a frame of that size about `middle`; of one of the `roots` first parts, also over the
+ * hulls of all that were set apart from it. */
+static enum status build(const struct parts *all, size_t part_number, size_t roots, const double middle[3],
+                         double frame, struct model_tree *out)
 {
-  const bool all = stay == b->count; /* nobody else needs the boxes: no copies of them */
-  struct bvh_box *own = all ? b->boxes : memory_alloc(stay + g->count + 1, sizeof *own);
-  if (!own) return STATUS_LIMIT;
-  for (size_t k = 0; k < stay; k++) {
-    if (all) g->index[k] = (uint32_t)k;
-    own[k] = b->boxes[g->index[k]];
-    tree_box(middle, g->frame, &own[k]);
+  const struct part *part = &all->at[part_number];
+  const size_t most = part->count + (part_number < roots ? all->count - roots : 0);
+  const bool alone = all->count == 1; /* nobody else needs the boxes: no copies of them */
+  size_t count = part->count;
+  *out = (struct model_tree){.frame = frame};
+  for (int k = 0; k < 3; k++) out->origin[k] = all->about[k] + middle[k];
+  struct bvh_box *own = alone ? all->boxes : memory_alloc(most + 1, sizeof *own);
+  uint32_t *number = alone ? part->index : memory_alloc(most + 1, sizeof *number);
+  enum status status = own && number ? STATUS_OK : STATUS_LIMIT;
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    number[k] = alone ? (uint32_t)k : part->index[k];
+    own[k] = all->boxes[number[k]];
   }
-  for (size_t k = 0; k < g->count; k++) own[stay + k] = g->groups[k].hull, tree_box(middle, g->frame, &own[stay + k]);
-  const enum status status = bvh_build(own, stay + g->count, b->team, &out->bvh);
-  if (!all) memory_free(own);
-  if (status == STATUS_OK) renumber_leaves(b, &out->bvh, g->index, stay);
+  for (size_t n = roots; part_number < roots && n < all->count && status == STATUS_OK; n++) {
+    if (all->at[n].twins != part->twins) continue;
+    own[count] = all->at[n].hull;
+    number[count++] = (uint32_t)(all->model->leaf_count + all->model->copy_count + (n - roots));
+  }
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) tree_box(middle, frame, &own[k]);
+  if (status == STATUS_OK) status = bvh_build(own, count, all->team, &out->bvh);
+  if (status == STATUS_OK) renumber_leaves(&out->bvh, number);
+  if (!alone) memory_free(own), memory_free(number);
   return status;
 }
 
-/* Builds the trees of the groups. */
-static enum status build_inner(const struct building *b, int depth, const struct grouping *g, struct model_tree *out)
+/* The size of a part's own frame. */
+static double part_frame(const struct part *part)
 {
-  out->inner = arena_alloc(b->model->arena, g->count, sizeof *out->inner);
-  if (!out->inner) return STATUS_LIMIT;
-  enum status status = STATUS_OK;
-  for (size_t n = 0; n < g->count && status == STATUS_OK; n++) {
-    const struct box_group *group = &g->groups[n];
+  int exponent;
+  frexp(real_max(box_extent(&part->hull) / 2, LEAST_FRAME), &exponent);
+  return ldexp(1, exponent);
+}
+
+/* Builds all trees. The roots have the scene's frame. */
+static enum status build_all(const struct parts *all, size_t roots, struct model *model, const double middle[3])
+{
+  const double frame = model->tree.frame;
+  model->inner = arena_alloc(model->arena, all->count - roots + 1, sizeof *model->inner);
+  enum status status = model->inner ? STATUS_OK : STATUS_LIMIT;
+  for (size_t n = roots; n < all->count && status == STATUS_OK; n++) {
+    const struct part *part = &all->at[n];
     double center[3];
-    int exponent;
-    for (int k = 0; k < 3; k++) center[k] = box_center(&group->hull, k);
-    frexp(real_max(box_extent(&group->hull) / 2, LEAST_FRAME), &exponent);
-    out->inner_count++;
-    status = build(b, depth, g->index + group->first, group->count, center, ldexp(1, exponent), &out->inner[n]);
+    for (int k = 0; k < 3; k++) center[k] = box_center(&part->hull, k);
+    status = build(all, n, roots, center, part_frame(part), &model->inner[model->inner_count++]);
   }
+  if (status == STATUS_OK) status = build(all, 0, roots, middle, frame, &model->tree);
+  if (status == STATUS_OK && roots > 1) status = build(all, 1, roots, middle, frame, &model->twins);
   return status;
 }
 
@@ -222,36 +233,23 @@ static size_t twins_last(const struct model *model, uint32_t index[], size_t cou
   return others;
 }
 
-/* Builds a tree of boxes[index[0..count-1]], within `depth` others, in a frame of size `frame` about `middle`, which is
- * given as they are. */
-static enum status build(const struct building *b, int depth, uint32_t index[], size_t count, const double middle[3],
-                         double frame, struct model_tree *out)
-{
-  struct grouping g = {.boxes = b->boxes, .index = index, .frame = frame};
-  const size_t stay = depth + 1 < MODEL_FRAMES ? set_apart(&g, count) : count;
-  *out = (struct model_tree){.frame = frame};
-  for (int k = 0; k < 3; k++) out->origin[k] = b->about[k] + middle[k];
-  enum status status = g.failed ? STATUS_LIMIT : build_outer(b, &g, stay, middle, out);
-  if (status == STATUS_OK && g.count > 0) status = build_inner(b, depth + 1, &g, out);
-  memory_free(g.groups);
-  return status;
-}
-
 enum status tree_build(struct model *model, struct bvh_box boxes[], const struct team *team)
 {
   const size_t count = model->leaf_count + model->copy_count;
-  struct model_tree *tree = &model->tree;
-  struct building all = {.model = model, .boxes = boxes, .count = count, .team = team};
-  const double frame = tree->frame;
+  const struct model_tree *tree = &model->tree;
+  struct parts all = {.model = model, .boxes = boxes, .team = team};
   double middle[3];
   for (int k = 0; k < 3; k++) all.about[k] = tree_about(tree, k), middle[k] = tree->origin[k] - all.about[k];
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
-  const size_t others = twins_last(model, index, count);
-  enum status status = build(&all, 0, index, others, middle, frame, tree);
-  if (status == STATUS_OK && others < count)
-    status = build(&all, 0, index + others, count - others, middle, frame, &model->twins);
+  const size_t others = twins_last(model, index, count), roots = others < count ? 2 : 1;
+  part_add(&all, index, others, false);
+  if (others < count) part_add(&all, index + others, count - others, true);
+  for (size_t n = 0; n < all.count && !all.failed; n++)
+    set_apart(&all, n, n < roots ? tree->frame : part_frame(&all.at[n]));
+  const enum status status = all.failed ? STATUS_LIMIT : build_all(&all, roots, model, middle);
+  memory_free(all.at);
   memory_free(index);
   return status;
 }
@@ -271,81 +269,41 @@ static double leaf_area(const struct oriented_box *box)
 }
 
 /* The crossings in a leaf child's box, times the surface of the box. */
-static double crossings_in(const struct model *model, const struct model_tree *tree, uint32_t box, double surface)
+static double crossings_in(const struct model *model, uint32_t box, double surface)
 {
-  if (model_is_tree(model, box)) return model_inner(model, tree, box)->crossings * surface;
+  if (model_is_tree(model, box)) return model_inner(model, box)->crossings * surface;
   if (box >= model->leaf_count) return model->copies[box - model->leaf_count].object->model->tree.crossings * surface;
   return 2 * leaf_area(&model->oriented[box]);
 }
 
-/* Surfaces of boxes; as many lines meet a box. */
-struct surfaces {
-  double whole, nodes, leaves; /* of the tree; sums over the boxes of its nodes, and over those of leaves */
-  double crossings;            /* sum of crossings_in */
-};
-
-static void measure(const struct model *model, const struct model_tree *tree, struct surfaces *out)
+/* A line through a convex body of surface S makes 2 A / S crossings on average, where A is the area of what is in it
+ * (Crofton's formula). */
+static void count_crossings(const struct model *model, struct model_tree *tree)
 {
   struct bvh_box whole = BVH_EMPTY;
-  *out = (struct surfaces){0};
+  double sum = 0;
   for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
     const struct bvh_node *node = &tree->bvh.nodes[n / BVH_WIDTH];
     const size_t side = n % BVH_WIDTH;
     const uint32_t child = node->child[side];
     struct bvh_box box;
-    for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
     if (child == 0) continue;
-    const double surface = box_surface(&box);
-    const uint32_t number = child & ~BVH_LEAF;
+    for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
     if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
-    if (child == number) out->nodes += surface;
-    else out->crossings += crossings_in(model, tree, number, surface);
-    if (child != number && number < model->leaf_count) out->leaves += surface;
+    if (child & BVH_LEAF) sum += crossings_in(model, child & ~BVH_LEAF, box_surface(&box));
   }
-  out->whole = box_surface(&whole), out->nodes += out->whole;
+  const double surface = box_surface(&whole);
+  tree->crossings = surface > 0 ? sum / surface : 0;
 }
 
-/* The boxes along a node's leaf children, side by side. */
-static void set_four(const struct model *model, const struct bvh_node *node, struct oriented_four *four)
+void tree_finish(struct model *model)
 {
-  for (int side = 0; side < BVH_WIDTH; side++) {
-    const uint32_t box = node->child[side] & ~BVH_LEAF;
-    const bool leaf = node->child[side] != box && box < model->leaf_count;
-    const struct oriented_box all = {.half = {INFINITY, INFINITY, INFINITY}},
-                              *from = leaf ? &model->oriented[box] : &all;
-    for (int q = 0; q < 3; q++) {
-      for (int k = 0; k < 3; k++) four->g[k][q][side] = from->g[k][q];
-      four->offset[q][side] = from->offset[q], four->half[q][side] = from->half[q];
-    }
-  }
+  for (size_t k = 0; k < model->inner_count; k++) count_crossings(model, &model->inner[k]);
+  count_crossings(model, &model->tree);
 }
 
-/* Sets tree->along where surfaces lie behind one another, as sheets do, so that a line that comes to a node meets more
- * than one box of a leaf there. With fewer, reading them takes longer than it saves; and for leaves that are not kept
- * there is no room. */
-static bool set_along(const struct model *model, const struct surfaces *s, struct model_tree *tree)
+void tree_free(struct model *model)
 {
-  if (tree->crossings < MANY_CROSSINGS || s->leaves <= s->nodes || !model->leaves) return true;
-  tree->along = arena_alloc(model->arena, tree->bvh.node_count, sizeof *tree->along);
-  for (size_t n = 0; tree->along && n < tree->bvh.node_count; n++)
-    set_four(model, &tree->bvh.nodes[n], &tree->along[n]);
-  return tree->along;
-}
-
-static bool finish(const struct model *model, struct model_tree *tree)
-{
-  for (size_t k = 0; k < tree->inner_count; k++)
-    if (!finish(model, &tree->inner[k])) return false;
-  struct surfaces s;
-  measure(model, tree, &s);
-  tree->crossings = s.whole > 0 ? s.crossings / s.whole : 0;
-  return set_along(model, &s, tree);
-}
-
-enum status tree_finish(struct model *model) { return finish(model, &model->tree) ? STATUS_OK : STATUS_LIMIT; }
-
-void tree_free(struct model_tree *tree)
-{
-  for (size_t k = 0; k < tree->inner_count; k++) tree_free(&tree->inner[k]);
-  bvh_free(&tree->bvh);
+  for (size_t k = 0; k < model->inner_count; k++) bvh_free(&model->inner[k].bvh);
+  bvh_free(&model->tree.bvh), bvh_free(&model->twins.bvh);
 }

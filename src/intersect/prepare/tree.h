@@ -24,7 +24,7 @@ static inline double tree_about(const struct model_tree *whole, int k)
 /* Takes the box to a frame of that size about `middle`, widened by what that may round. */
 void tree_box(const double middle[3], double frame, struct bvh_box *box);
 
-/* Builds model->tree and model->twins over the boxes of the model's leaves, and then of its copies, given less
+/* Builds model->tree, model->twins and model->inner over the boxes of the model's leaves, and then of its copies, given less
  * tree_about, in the frame that the tree has already. Uses the boxes up. STATUS_LIMIT if memory or threads are short;
  * then there may be nodes to free. */
 enum status tree_build(struct model *model, struct bvh_box boxes[], const struct team *team) STATUS_MUST_CHECK;
@@ -37,12 +37,11 @@ static inline double box_surface(const struct bvh_box *box)
   return 2 * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]);
 }
 
-/* Sets `crossings` and `along` of the model's tree and of those in it, once boxes along leaves and the objects' trees
- * exist. A line through a convex body of surface S makes 2 A / S crossings on average, where A is the area of what is
- * in it (Crofton's formula). Leaves whose boxes tell nothing count as none. STATUS_LIMIT if memory is short. */
-enum status tree_finish(struct model *model) STATUS_MUST_CHECK;
+/* Sets `crossings` of the model's trees, once boxes along leaves and the objects' trees exist. Leaves
+ * whose boxes exclude nothing count as none. */
+void tree_finish(struct model *model);
 
-/* Frees the nodes of this tree and of those in it. */
-void tree_free(struct model_tree *tree);
+/* Frees the nodes of all trees of the model. */
+void tree_free(struct model *model);
 
 #endif
