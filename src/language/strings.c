@@ -66,16 +66,20 @@ void string_add_number(double x, double length, double precision, char *text, si
 
 /* ---- messages ---- */
 
+/* The lines that a stranger's #debug may print; a loop could fill a disk with them. */
+enum { UNTRUSTED_LINES = 1000 };
+
 /* What #debug has said of a line that is not ended. */
 struct messages {
   char text[1000];
-  size_t used;
+  size_t used, lines;
 };
 
 static void print_line(struct language *language)
 {
   struct messages *messages = language->messages;
-  diagnostics_print(language->diagnostics, messages->text, messages->used);
+  if (!language->untrusted || messages->lines++ < UNTRUSTED_LINES)
+    diagnostics_print(language->diagnostics, messages->text, messages->used);
   messages->used = 0;
 }
 

@@ -30,6 +30,10 @@ done
 try pscn dump up/scene.pscn --untrusted --solver newton | grep -c newton
 asked "$(for k in {1..64}; do echo "light_source { $k*x, 1 }"; done)"
 try pscn trace up/scene.pscn --untrusted --stats up/stats.json </dev/null
+# A loop prints a thousand lines at most; it ends where loops end.
+echo '#while (1) #debug "line\n" #end' >up/flood.pscn
+pscn dump up/flood.pscn --untrusted 2>&1 | grep -c '^line$'
+rm up/flood.pscn
 # Outputs.
 try pscn render up/scene.pscn --untrusted $small
 try pscn render up/scene.pscn --untrusted $small -o up/picture.png
