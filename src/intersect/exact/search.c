@@ -445,12 +445,24 @@ static void tell_met(struct judge *j, int border)
   judge_maybe(j, at[0], at[1], near, 4 * UNIT_ROUNDOFF * fabs(near), near);
 }
 
+/* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */
+static bool out_of_range(const struct judge *j)
+{
+  static const double middle[2] = {0.5, 0.5};
+  const struct ray *ray = j->asked->ray;
+  struct depth depth;
+  depth.w = piece_depth(&j->sight.plane, middle, 1, &depth.error, &depth.exact);
+  return depth.error == 0 && (order_to(&depth, j->sight.along, ray->t_min) != ORDER_BEHIND ||
+                              order_to(&depth, j->sight.along, ray->t_max) != ORDER_BEFORE);
+}
+
 void search_region(struct judge *j, const struct exact_region *region)
 {
   struct waiting waiting[WAITING_MAX];
   const size_t before = j->pool.used;
   int count = 0;
   bool room = j->seen;
+  if (room && out_of_range(j)) return;
   for (int k = -1; k < j->sight.borders && room; k++) {
     waiting[count] = (struct waiting){.border = k};
     room = region_begin(j, region, k < 0 ? &j->sight.off : &j->sight.border[k].on, &waiting[count]);
