@@ -111,7 +111,9 @@ static void run_situation(const char *class, const struct situation *s, struct c
       tracer_occluded(trial.tracer, 1, &s->rays[n], &occluded);
       if (!same(&single, &hits[n]) && is_tied(&trial, &s->rays[n], &single, &hits[n])) count->tied++;
       else if (!same(&single, &hits[n])) count->company++, show(class, "company", &s->rays[n], &single, &hits[n]);
-      if (occluded != (single.patch != HIT_NONE))
+      /* what is left undecided counts as hidden */
+      const bool hit = single.patch != HIT_NONE, open = single.certainty != CERTAINTY_CERTAIN;
+      if (occluded != hit && !(occluded && open))
         count->occlusion++, show(class, "occlusion", &s->rays[n], &single, &single);
     }
   }

@@ -126,7 +126,7 @@ TEST(what_stands_behind_in_a_plane_is_no_doubt)
 TEST(what_starts_in_a_plane_leaves_it)
 {
   struct random random = {SEED + 3};
-  int hits = 0, touching = 0;
+  int hits = 0;
   for (int scene = 0; scene < SCENES; scene++) {
     const int axis = scene % 3;
     const double value = scene % 4 ? random_between(&random, -1, 1) : 0;
@@ -141,17 +141,14 @@ TEST(what_starts_in_a_plane_leaves_it)
       struct ray ray = ray_at(&random, axis, value), behind;
       for (int k = 0; k < 3; k++) ray.origin[k] = k == axis ? value : random_between(&random, -1, 1);
       behind = ray, behind.t_min = 0x1p-20;
-      struct hit hit = world_closest(&world, &ray);
-      const struct hit next = world_closest(&world, &behind);
-      touching += hit.certainty == CERTAINTY_GRAZING; /* the ray touches what it starts on */
-      hit.certainty = CERTAINTY_CERTAIN;
+      const struct hit hit = world_closest(&world, &ray), next = world_closest(&world, &behind);
       assert_same_hit("start", 0, &ray, &hit, &next);
       hits += hit.patch != HIT_NONE;
     }
     assert_true(tracer_counts(world.tracer)->escalated * 20 < RAYS);
     world_close(&world);
   }
-  assert_true(hits > SCENES * RAYS / 8 && touching > SCENES * RAYS / 2);
+  assert_true(hits > SCENES * RAYS / 8);
 }
 
 /* However slowly a ray leaves its plane, and whatever is open about the patches there, it meets none of them. */
@@ -194,7 +191,6 @@ TEST(what_leaves_a_plane_slowly_does_not_meet_it)
 TEST(what_leaves_a_plane_slowly_is_judged_where_it_starts)
 {
   struct random random = {SEED + 6};
-  int touching = 0;
   for (int scene = 0; scene < SCENES; scene++) {
     const int axis = scene % 3;
     struct world world;
@@ -217,11 +213,9 @@ TEST(what_leaves_a_plane_slowly_is_judged_where_it_starts)
       assert_false(occluded);
       assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
       assert_true(list.count == 0 && list.certainty == straight.certainty);
-      touching += hit.certainty == CERTAINTY_GRAZING;
     }
     world_close(&world);
   }
-  assert_true(touching > SCENES * RAYS / 8 && touching < SCENES * RAYS * 7 / 8);
 }
 
 /* Nearly all rays meet several patches of the plane, and few meet a border. */

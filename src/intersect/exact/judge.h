@@ -8,10 +8,10 @@
 #include "intersect/exact/exact.h"
 #include "intersect/exact/sight.h"
 
-/* Work is counted in pieces examined, some 1,500 instructions each; one more for each WORK_LIMBS limbs of their
- * numbers. Writing a patch as the ray sees it counts as WORK_SIGHT of them, and so does zooming in on a root; looking for curves,
+/* Work is counted in pieces examined, some 1,500 instructions each; one more for each WORK_LIMBS products of limbs of
+ * their numbers. Writing a patch as the ray sees it counts as WORK_SIGHT of them, and so does zooming in on a root; looking for curves,
  * WORK_CURVES. */
-enum { WORK_LIMBS = 8, WORK_SIGHT = 8, WORK_CURVES = 16 };
+enum { WORK_LIMBS = 64, WORK_SIGHT = 8, WORK_CURVES = 16 };
 
 /* Memory for nets, in limbs: 256 KB, of which a search of rays with ordinary numbers needs a tenth. */
 enum { POOL_LIMBS = 1 << 15 };

@@ -342,7 +342,8 @@ static void move_nets(struct judge *j, struct waiting *it, size_t to)
 /* What it takes to examine a piece. */
 static int work_of(const struct piece *piece)
 {
-  return 1 + (piece->limbs[NET_A] + piece->limbs[NET_B] + piece->limbs[NET_W]) / WORK_LIMBS;
+  const int limbs = piece->limbs[NET_A] + piece->limbs[NET_B] + piece->limbs[NET_W];
+  return 1 + limbs * limbs / WORK_LIMBS; /* rows of the Jacobian are products */
 }
 
 /* Replaces the piece, of which the pool has nothing behind, by its halves, the one that begins first last. Returns how

@@ -99,8 +99,7 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
 LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_plane *plane)
 {
   const lanes above = p->origin[plane->axis] - plane->value, up = p->direction[plane->axis];
-  const lane_mask touches = packet_leaves_plane(p, plane);
-  return ((above > 0) & (up >= 0)) | ((above < 0) & (up <= 0)) | (p->any ? touches : touches & (p->t_min > 0));
+  return ((above > 0) & (up >= 0)) | ((above < 0) & (up <= 0)) | packet_leaves_plane(p, plane);
 }
 
 /* The lanes of `active` on which the ray may meet the patch, if that lies in a plane across an axis, and not behind the

@@ -19,10 +19,7 @@ struct answers {
 };
 
 /* Lanes whose answer is in doubt, whatever it is. */
-static unsigned packet_doubt(const struct packet *p)
-{
-  return p->model->unproven ? ~0u : lanes_bits(p->best.doubt | p->best.touches);
-}
+static unsigned packet_doubt(const struct packet *p) { return p->model->unproven ? ~0u : lanes_bits(p->best.doubt); }
 
 static struct exact_case lane_case(const struct packet *p, unsigned lane)
 {
@@ -260,9 +257,5 @@ unsigned finish_unsettled(const struct packet *p, const struct hit hits[])
   unsigned unsettled = 0;
   for (size_t l = 0; l < p->count; l++)
     if (hits[l].certainty != CERTAINTY_CERTAIN) unsettled |= 1u << l;
-  if (!p->oriented) return unsettled;
-  const struct best *best = &p->best;
-  const lane_mask known = best->certain | (best->patch == NO_PATCH);
-  const unsigned open = p->postponed->open | p->postponed->exhausted;
-  return unsettled & ~(lanes_bits(best->touches & known & ~best->doubt) & ~open);
+  return unsettled;
 }

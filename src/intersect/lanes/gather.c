@@ -41,10 +41,10 @@ void gather_best(struct packet *p, lane_mask taken)
   struct hit hits[LANES];
   lanes_store4(best->u, best->v, best->radius_u, best->radius_v, &uv[0][0], 4);
   lanes_store4(best->t, p->t_far - best->t, lanes_all(0), lanes_all(0), &distance[0][0], 4);
-  const lane_mask doubt = best->doubt, touches = best->touches; /* belong to the list, whichever root came first */
-  p->best.doubt = p->best.touches = (lane_mask){0};
+  const lane_mask doubt = best->doubt; /* belongs to the list, whichever root came first */
+  p->best.doubt = (lane_mask){0};
   (void)finish_best(p, 0, hits);
-  p->best.doubt = doubt, p->best.touches = touches;
+  p->best.doubt = doubt;
   struct gathered *root = growing_add(&gather->roots, lanes_count(taken), sizeof *root);
   gather->failed |= !root;
   for (unsigned bits = root ? lanes_bits(taken) : 0; bits; bits &= bits - 1, root++) {
@@ -191,7 +191,7 @@ static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathe
                              struct hit_list *out)
 {
   struct gather *gather = p->gather;
-  bool certain = !p->model->unproven && !(p->best.doubt | p->best.touches)[lane], tie = false;
+  bool certain = !p->model->unproven && !p->best.doubt[lane], tie = false;
   double reach = -INFINITY;
   size_t first = 0; /* of those whose errors overlap */
   for (size_t k = 0; k < count; k++) {

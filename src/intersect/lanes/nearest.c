@@ -219,7 +219,6 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   const lane_mask sure = within & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
   if (lanes_any(hits & ~sure)) {
     const lane_mask start = hits & within & ~sure & starts_in_plane(p, it->leaf->patch);
-    p->best.touches |= start & (p->t_min <= 0);
     packet_postpone(p, it, hits & ~sure & ~start);
   }
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));

@@ -99,7 +99,7 @@ void packet_orient(struct packet *p)
   }
   p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
   p->best.patch = p->best.leaf = NO_PATCH + (lane_mask){0};
-  p->best.certain = p->best.final = p->best.doubt = p->best.touches = (lane_mask){0};
+  p->best.certain = p->best.final = p->best.doubt = (lane_mask){0};
 }
 
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index)

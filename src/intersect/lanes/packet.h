@@ -42,10 +42,9 @@ struct best {
   lane_mask certain;              /* proven */
   lane_mask final; /* right to the last places, and the members below are set; others get them from last_step.h */
   struct surface_point point;
-  lanes normal[3];   /* of any length and sense */
-  lanes tangent;     /* bound on the coordinates of the derivatives whose product is the normal */
-  lane_mask doubt;   /* unsure: a root near t_min was left out unproven, or the budget was exhausted */
-  lane_mask touches; /* the ray starts on a patch: in doubt whatever else is known, whatever the other rays are */
+  lanes normal[3]; /* of any length and sense */
+  lanes tangent;   /* bound on the coordinates of the derivatives whose product is the normal */
+  lane_mask doubt; /* unsure: a root near t_min was left out unproven, or the budget was exhausted */
 };
 
 /* Rays in the frame of a patch; local_ray.h describes one of them. */
