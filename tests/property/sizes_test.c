@@ -151,44 +151,6 @@ TEST(bowls_stand_in_bowls)
       rays[n].origin[c] = least * (n + c) * 1e-3;
       rays[n].direction[c] = (n >> c & 1 ? 1 : -1) * (1 + 0.01 * c + 0.001 * n);
     }
-<<<<<<< HEAD
-=======
-    const double least = exp2(330 - 8.2 * BOWLS);
-    for (int k = 0; k < AT_THE_BOTTOM; k++)
-      for (int n = 0; n < 16; n++) {
-        const double at[3] = {(n / 4 * 0.01 + 0.1 * (k % 128)) / 128, (n % 4 * 0.01 + 0.1 * (k / 128)) / 128, 1e-6 * k};
-        for (int c = 0; c < 3; c++) nets[BOWLS + k][n / 4][n % 4][c] = least * (at[c] + 0.1);
-      }
-    for (int n = 0; n < DEEP_RAYS; n++) {
-      d.rays[n] = (struct ray){.t_max = INFINITY};
-      for (int c = 0; c < 3; c++) {
-        d.rays[n].origin[c] = least * (n + c) * 1e-3;
-        d.rays[n].direction[c] = (n >> c & 1 ? 1 : -1) * (1 + 0.01 * c + 0.001 * n);
-      }
-    }
-    world_open(&d.world, nets, crowd ? BOWLS + AT_THE_BOTTOM : BOWLS, NULL);
-    expect_frames(&d.world.scene, MODEL_FRAMES);
-    pthread_t thread;
-    pthread_attr_t attributes;
-    void *done;
-    assert_int_equal(pthread_attr_init(&attributes), 0);
-    assert_int_equal(pthread_attr_setstacksize(&attributes, DEEP_STACK), 0);
-    assert_int_equal(pthread_create(&thread, &attributes, go_deep, &d), 0);
-    assert_int_equal(pthread_join(thread, &done), 0);
-    pthread_attr_destroy(&attributes);
-    assert_non_null(done);
-    size_t hits = 0;
-    for (int n = 0; n < DEEP_RAYS; n++) {
-      const struct hit alone = world_closest(&d.world, &d.rays[n]);
-      assert_int_equal(d.hits[n].patch, alone.patch);
-      assert_int_equal(d.hits[n].certainty, alone.certainty);
-      assert_true(d.occluded[n] == (alone.patch != HIT_NONE) ||
-                  (d.occluded[n] && alone.certainty != CERTAINTY_CERTAIN));
-      hits += alone.patch != HIT_NONE && d.listed[n] > 0;
-    }
-    assert_true(hits >= DEEP_RAYS / 4);
-    world_close(&d.world);
->>>>>>> 15865923 (intersect: a start exactly on a flat patch is decided, not in doubt)
   }
   world_open(&world, nets, BOWLS, NULL);
   assert_true(world.tracer->model->inner_count >= BOWLS / 2);
