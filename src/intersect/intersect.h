@@ -4,7 +4,7 @@
  * counters, its scratch memory and its warm starts. No call on a tracer but tracer_all allocates or fails.
  *
  * With `polish on`, the default, a hit is the nearest of all points with t in (t_min, t_max) where the exact ray meets
- * the exact patches; of patches that are equally near (exact/ties.c) the first is reported. A miss means that there is
+ * the exact patches; of patches that are equally near the first is reported. A miss means that there is
  * no such point. `certain` means that this is proven. `grazing` means that a change of the input within the rounding
  * bound of the evaluation can turn the answer (a tangency, the border of an open surface, a coincident component). A
  * hit is then reported if one cannot be excluded, unless 113 bits cannot tell it from t_min or t_max. Corners and poles

@@ -169,13 +169,3 @@ void exact_maybe_hit(const struct model *model, const struct ray *ray, const str
   *out = (struct hit){.certainty = CERTAINTY_GRAZING, .u = maybe->u, .v = maybe->v};
   answer(model, ray, maybe->patch, 0, maybe->t, out);
 }
-
-bool hit_scale_back(struct hit *hit, const struct ray *scaled, int exponent)
-{
-  if (exponent == 0) return false;
-  const bool sure = hit->certainty == CERTAINTY_CERTAIN;
-  const double t = ldexp(hit->t, -exponent);
-  if (!(hit->t >= DBL_MIN && t > 0 && t <= DBL_MAX)) hit->certainty = CERTAINTY_GRAZING;
-  hit->t = t_within(t, ldexp(scaled->t_min, -exponent), ldexp(scaled->t_max, -exponent));
-  return sure && hit->certainty == CERTAINTY_GRAZING;
-}

@@ -140,8 +140,4 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
 void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe,
                      struct hit *out);
 
-/* answer.c: converts t back for a ray whose direction was scaled by 2^exponent. Returns whether that made the hit
- * grazing: t has lost digits at an end of the doubles' range. */
-bool hit_scale_back(struct hit *hit, const struct ray *scaled, int exponent);
-
 #endif
