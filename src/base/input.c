@@ -1,4 +1,5 @@
 /* Opens files for reading. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "base/input.h"
 
 #include <errno.h>

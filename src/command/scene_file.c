@@ -1,4 +1,5 @@
 /* Reads a scene from a file. See scene_file.h. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "command/scene_file.h"
 
 #include <math.h>
