@@ -219,8 +219,10 @@ TEST(the_sum_is_of_all_pixels)
     size_t size, length;
     assert_int_equal(piece_create(&options, 1, 1, NULL, 0, &piece), STATUS_OK);
     for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) piece.image.value[k] = (float)(k + 1);
-    for (size_t k = 0; k < piece.tiles.count; k++)
-      atomic_store(&piece.tiles.rows[k], done[n] >> k & 1 ? TILE_ROWS : done[n] >> (k + 8) & (TILE_ROWS - 1));
+    for (size_t k = 0; k < piece.tiles.count; k++) {
+      const unsigned rows = done[n] >> k & 1 ? TILE_ROWS : done[n] >> (k + 8) & (TILE_ROWS - 1);
+      atomic_store(&piece.tiles.rows[k], (unsigned char)rows);
+    }
     assert_int_equal(piece_encode(&piece, &channels, 1, &bytes, &size, message), STATUS_OK);
     write_file(bytes, size);
     piece_destroy(&piece);
