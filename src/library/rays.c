@@ -40,7 +40,8 @@ static bool take_ray(const struct pscn_ray *ray, struct ray *out)
   memcpy(out->origin, ray->origin, sizeof out->origin);
   memcpy(out->direction, ray->direction, sizeof out->direction);
   for (int k = 0; k < 3; k++) {
-    in_range &= number_in_range(&out->origin[k]) & number_in_range(&out->direction[k]);
+    in_range &= number_in_range(&out->origin[k]);
+    in_range &= number_in_range(&out->direction[k]);
     moves |= out->direction[k] != 0;
   }
   out->t_min = ray->t_min;
