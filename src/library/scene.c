@@ -186,7 +186,9 @@ static bool take_point(const struct points *points, size_t n, int k, double out[
   memcpy(p, at, sizeof p);
   const double *M = points->instances ? points->instances + 12 * (n / points->count) : NULL;
   for (int c = 0; c < 3; c++) out[c] = M ? p[0] * M[c] + p[1] * M[3 + c] + p[2] * M[6 + c] + M[9 + c] : p[c];
-  return number_in_range(&out[0]) & number_in_range(&out[1]) & number_in_range(&out[2]);
+  bool in_range = true;
+  for (int c = 0; c < 3; c++) in_range &= number_in_range(&out[c]);
+  return in_range;
 }
 
 static enum pscn_status add_points(struct pscn_scene *scene, const struct points *points, size_t max_memory)
