@@ -1,8 +1,8 @@
 #!/bin/bash
-# The numbers required of pscn, each a ratio or a difference within this run, with the contestants taking turns. Prints
-# a table of name, number and requirement; then every scene beside Embree, with camera, shadow and scattered rays.
+# What pscn costs, each number a ratio or a difference within this run, with the contestants taking turns. Prints a table
+# of names and numbers; then every scene beside Embree, with camera, shadow and scattered rays, as CSV.
 #
-#   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page: the table goes into docs/performance.md
+#   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page: into docs/performance.md and docs/performance/
 #
 # The teapot at 800x600, one thread, default solver, unless stated otherwise; some fifteen minutes on an idle machine.
 # Times are CPU times, since others may use the machine too; still, an idle one gives steadier numbers.
@@ -74,48 +74,50 @@ scenes() {
   for name in crown hair ribbons creature animal confetti pearls; do echo "$name 8 $folder/$name.pscn"; done
 }
 
-# every_scene KIND: a table of all scenes, the worst last.
+# every_scene SET: a line of numbers for each scene and each kind of rays, answered on that instruction set.
 every_scene() {
-  printf '| scene | pscn, ns a ray | to Embree one by one | to its fastest packets | pscn one by one, to Embree one by one |\n'
-  printf '|---|---|---|---|---|\n'
+  [ "$1" = "$best" ] || local -x PSCN_KERNEL=$1
   scenes | while read -r name side file; do
-    say "$1 rays of $name"
-    contest "$1" "$file" "$side" 2>/dev/null || continue # a scene may have no shadow rays
-    if [ "$1" = camera ]; then
-      echo "$name $(cell 'preparing, pscn' 2) $(cell 'preparing, Embree' 2) $(cell 'preparing, Embree' 3) $(cell pscn 2) $(cell pscn 6)" >>"$folder/preparing"
-    fi
-    printf '%s %.0f %.2f %.2f %.2f\n' "$name" "$(cell pscn 2)" "$(cell pscn 5)" "$(cell pscn 6)" "$(cell 'pscn, one by one' 5)"
-  done | awk '{ print "| " $1 " | " $2 " | " $3 " | " $4 " | " $5 " |" }
-    { for (k = 3; k <= 5; k++) if ($k > worst[k]) worst[k] = $k }
-    END { printf "| **worst** | | **%.2f** | **%.2f** | **%.2f** |\n", worst[3], worst[4], worst[5] }'
-}
-
-# preparing: a table of the work before the first ray, from the runs of camera rays.
-preparing() {
-  printf '| scene | pscn, s | Embree, s | of its best quality, s | pictures until Embree is done first |\n|---|---|---|---|---|\n'
-  awk -v rays=$((${SIZE%x*} * ${SIZE#*x})) '{
-    slower = $5 * (1 - 1 / $6) * rays / 1e9 # seconds a picture
-    pictures = slower <= 0 ? "never" : $3 <= $2 ? 0 : sprintf("%.0f", 0.5 + ($3 - $2) / slower)
-    printf "| %s | %.4f | %.4f | %.4f | %s |\n", $1, $2, $3, $4, pictures }' "$folder/preparing"
-}
-
-# every_scene_avx2: a table of all scenes and kinds of rays, with both programs limited to AVX2.
-every_scene_avx2() {
-  printf '| scene | camera rays, to Embree one by one | to its packets | shadow rays, one by one | to its packets | scattered rays, one by one | to its packets |\n'
-  printf '|---|---|---|---|---|---|---|\n'
-  scenes | while read -r name side file; do
-    say "rays of $name with AVX2"
-    line=$name
     for kind in camera shadow scattered; do
-      if PSCN_KERNEL=avx2 contest "$kind" "$file" "$side" 2>/dev/null; then
-        line+=$(printf ' %.2f %.2f' "$(cell pscn 5)" "$(cell pscn 6)")
-      else
-        line+=' - -'
-      fi
+      say "$kind rays of $name, $1"
+      contest "$kind" "$file" "$side" 2>/dev/null || continue # a scene may have no shadow rays
+      printf '%s,%s,%s,%.0f,%.2f,%.2f,%.2f\n' "$1" "$kind" "$name" "$(cell pscn 2)" "$(cell pscn 5)" "$(cell pscn 6)" \
+        "$(cell 'pscn, one by one' 5)"
+      [ "$kind$1" != "camera$best" ] ||
+        echo "$name,$(cell 'preparing, pscn' 2),$(cell 'preparing, Embree' 2),$(cell 'preparing, Embree' 3)" >>"$folder/preparing.csv"
     done
-    echo "$line"
-  done | awk '{ for (k = 1; k <= 7; k++) { printf "| %s ", $k; if (k > 1 && $k > worst[k]) worst[k] = $k } print "|" }
-    END { printf "| **worst** "; for (k = 2; k <= 7; k++) printf "| **%.2f** ", worst[k]; print "|" }'
+  done
+}
+
+# beside_embree: the table of docs/performance/embree.csv, and what docs/performance/preparing.csv comes to.
+beside_embree() {
+  awk -F, '
+    function add(list, x) { n[list]++; for (k = n[list]; k > 1 && v[list, k - 1] > x; k--) v[list, k] = v[list, k - 1]; v[list, k] = x }
+    function cells(name, begin, what,    r, c, x, line) {
+      for (r = 1; r <= 3; r++) for (c = 5; c <= 6; c++) {
+        x = what == "" ? at[begin, ray[r], c] : what == "worst" ? v[begin, ray[r], c, n[begin, ray[r], c]] : middle(begin SUBSEP ray[r] SUBSEP c)
+        line = line (x == "" ? " - |" : sprintf(what == "worst" ? " **%.2f** |" : " %.2f |", x))
+      }
+      print "| " name " |" line
+    }
+    function middle(list,    m) { m = n[list]; return m % 2 ? v[list, (m + 1) / 2] : (v[list, m / 2] + v[list, m / 2 + 1]) / 2 }
+    BEGIN { split("camera shadow scattered", ray, " ") }
+    NR == 1 { next }
+    NR == 2 { best = $1 }
+    $1 == best && !($3 in known) { known[$3]; name[++names] = $3 }
+    { other = $1 == best ? other : $1
+      for (c = 5; c <= 6; c++) { at[$1, $3, $2, c] = $c; add($1 SUBSEP $2 SUBSEP c, $c) } }
+    END {
+      print "| scene | camera rays, to Embree one by one | to its packets | shadow rays, one by one | to its packets | scattered rays, one by one | to its packets |"
+      print "|---|---|---|---|---|---|---|"
+      for (s = 1; s <= names; s++) cells(name[s], best SUBSEP name[s], "")
+      cells("**median**", best, "median")
+      cells("**worst**", best, "worst")
+      if (other != "") { cells("**median**, " other, other, "median"); cells("**worst**, " other, other, "worst") }
+    }' docs/performance/embree.csv
+  awk -F, 'NR > 1 { r = $2 / $3; for (k = ++n; k > 1 && v[k - 1] > r; k--) v[k] = v[k - 1]; v[k] = r }
+    END { printf "\nPreparing takes %.2f to %.2f of the time in which Embree builds its hierarchy of default quality, in the median\n", v[1], v[n]
+          printf "%.2f ([preparing.csv](performance/preparing.csv)).\n", v[int((n + 1) / 2)] }' docs/performance/preparing.csv
 }
 
 if cmake --build build --target beside_embree >/dev/null 2>&1; then
@@ -129,21 +131,12 @@ if cmake --build build --target beside_embree >/dev/null 2>&1; then
     "$(fixed "$(cell 'aberth { start previous split 1 }' 7)" 1)" "$(ns 'aberth { start previous split 1 }')"
   row '`aberth`, cold, without split / default' \
     "$(fixed "$(cell 'aberth { start cold split 1 }' 7)" 1)" "$(ns 'aberth { start cold split 1 }')"
-  for kind in camera shadow scattered; do
-    printf '\n### %s rays\n\n' "${kind^}"
-    every_scene "$kind"
-  done >"$folder/every"
-  {
-    printf '\n### Preparing\n\nBefore the first ray, CPU seconds of one thread. pscn makes leaves and their hierarchy; Embree makes triangles and\n'
-    printf 'theirs, of the default quality and of the best one, which is what its rays are measured with. Last: how many pictures\n'
-    printf 'of %s, of camera rays only, it takes until Embree, prepared with the default quality and asked in its fastest\n' "$SIZE"
-    printf 'packets, has taken less in all.\n\n'
-    preparing
-  } >>"$folder/every"
-  if [ -n "$(cell rtcIntersect16 2)" ]; then
-    printf '\n### With AVX2\n\nOn the same processor, whose wider registers neither pscn (`PSCN_KERNEL=avx2`) nor Embree uses here.\n\n' >>"$folder/every"
-    every_scene_avx2 >>"$folder/every"
-  fi
+  best=avx2
+  [ -z "$(cell rtcIntersect16 2)" ] || best=avx512
+  echo 'instruction_set,rays,scene,pscn_ns,to_embree_one_by_one,to_embree_packets,both_one_by_one' >"$folder/embree.csv"
+  echo 'scene,pscn_s,embree_s,embree_best_quality_s' >"$folder/preparing.csv"
+  every_scene "$best" >>"$folder/embree.csv"
+  [ "$best" = avx2 ] || every_scene avx2 >>"$folder/embree.csv"
 else
   say "Embree is not installed (libembree-dev): what is measured beside it is left out"
 fi
@@ -220,37 +213,42 @@ row "$TEAPOTS teapots: time per hit / one teapot's" "$(fixed "$(median "$folder/
 included"
 
 cat "$folder/table"
-[ ! -e "$folder/every" ] || cat "$folder/every"
-if [ -n "$page" ] && [ -e "$folder/every" ]; then
+[ ! -e "$folder/embree.csv" ] || cat "$folder/embree.csv" "$folder/preparing.csv"
+if [ -n "$page" ] && [ -e "$folder/embree.csv" ]; then
+  mkdir -p docs/performance
+  cp "$folder/embree.csv" "$folder/preparing.csv" docs/performance/
   {
-    echo "Written by \`examples/benchmark.sh --page\`, by \`beside_embree KIND SCENE\` for each: CPU time of one thread at 800x600,"
-    echo "default solver, medians of $runs turns. Embree has 64 x 64 x 2 triangles a patch, 16 x 16 x 2 in floor, hills, book, roll, marks"
-    echo "and pipes, and 8 x 8 x 2 in the last seven scenes, of which it would otherwise have millions. Its packets are of 8 rays and, where the"
-    echo "processor has the instructions, 16, said to be coherent but for scattered rays; its shadow rays are \`rtcOccluded\`."
-    echo "Scattered rays have random places and directions. Up to four rays are answered in registers of AVX2."
-    echo "Both get a list of rays one behind the other; bringing them into columns is in their times: of Embree's packets of 8 on"
-    echo "Zen 3 3 ns a ray, of 25 on bent and 68 on the teapot."
-    echo
-    echo "Eight scenes are those of [scenes/](../scenes/): \`inside\` is made of rays exactly along shared edges, \`nested\` of parts"
-    echo "that ask for other solvers. The others are made by \`examples/generate.sh\`:"
-    echo
-    echo "| scene | what it is |"
-    echo "|---|---|"
-    echo "| knots, knot | 200 patches of sixteen random points each, through one another; one of them |"
-    echo "| shells | 40 balls of eight patches through one another |"
-    echo "| floor | 150 balls of 0.003 to 0.4 on a floor 2,000 wide |"
-    echo "| hills | a landscape of 1,600 patches seen along it, under a low sun |"
-    echo "| book, roll | 1,000 curved pages from one spine; 800 turns of a carpet, of eight patches |"
-    echo "| marks | 100 squares on a floor, in its plane |"
-    echo "| pipes | 100 pipes every way, 1 : 80 |"
-    echo "| crown | 100 copies of a twig of 100 leaves, turned about its end |"
-    echo "| hair, ribbons | 10,000 patches of 1 : 200; 1,000 of 1 : 1000 |"
-    echo "| creature, animal | closed skins of 3,570 and of 11,532 patches |"
-    echo "| confetti | 20,000 small patches, each bent another way |"
-    echo "| pearls | 500 small balls apart |"
-    cat "$folder/every"
+    cat <<END
+Written by \`examples/benchmark.sh --page\` from [embree.csv](performance/embree.csv): CPU time of pscn over that of Embree, one
+thread, 800x600, default solver, medians of $runs turns. Below 1 pscn is faster. Embree answers the same rays through
+triangles: 64 x 64 x 2 a patch, 16 x 16 x 2 in floor, hills, book, roll, marks and pipes, 8 x 8 x 2 in the last seven scenes. Its
+packets have 8 or 16 rays, whichever is faster; its shadow rays are \`rtcOccluded\`. Scattered rays have random places and
+directions. Sorting rays into packets is part of both times.
+
+END
+    beside_embree
+    cat <<END
+
+Eight scenes are those of [scenes/](../scenes); \`examples/generate.sh\` makes the others. Several were added because pscn is slow on
+them.
+
+| scene | content |
+|---|---|
+| knots, knot | 200 patches of sixteen random points each, through one another; one of them |
+| shells | 40 balls of eight patches through one another |
+| floor | 150 balls of 0.003 to 0.4 on a floor 2,000 wide |
+| hills | a landscape of 1,600 patches seen along the ground, under a low sun |
+| book, roll | 1,000 curved pages from one spine; 800 turns of a carpet, of eight patches each |
+| marks | 100 squares in the plane of a floor |
+| pipes | 100 pipes in all directions, 1 : 80 |
+| crown | 100 copies of a twig of 100 leaves, turned about its end |
+| hair, ribbons | 10,000 patches of 1 : 200; 1,000 of 1 : 1000 |
+| creature, animal | closed skins of 3,570 and of 11,532 patches |
+| confetti | 20,000 small patches, each bent differently |
+| pearls | 500 small balls apart |
+END
   } >"$folder/section"
-  replace_section "$page" 'Every scene' "$folder/section"
+  replace_section "$page" 'Beside Embree' "$folder/section"
 fi
 if [ -n "$page" ]; then
   {

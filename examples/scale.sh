@@ -1,6 +1,6 @@
 #!/bin/bash
 # Cost against the number of patches, the size of the picture and the number of threads, pscn beside POV-Ray on the same
-# files: writes the section "Scale" of docs/performance.md and docs/performance/scale.svg.
+# files: writes the section "Scale" of docs/performance.md, docs/performance/scale.svg and reading.csv there.
 #
 #   examples/scale.sh [TEAPOTS...]       default 1 10 100 1000 10000; takes some six minutes
 #
@@ -199,25 +199,32 @@ text() {
   }'
 }
 
-# reading NAME FILE: a row, by the fastest turn, since other work only adds time; by trace, which does not load
+# reading NAME FILE: a line, by the fastest turn, since other work only adds time; by trace, which does not load
 # libraries for pictures meanwhile.
 reading() {
   for ((turn = 0; turn < TEXT_TURNS; turn++)); do
     "$pscn" trace --quiet --stats "$folder/stats.json" "$2" </dev/null
     members "$folder/stats.json" cpu parse
   done | sort -g | awk -v name="$1" -v bytes="$(stat -c %s "$2")" '
-    NR == 1 { printf "| %s | %.1f | %.2f | %.0f |\n", name, bytes / 1e6, $1, bytes / 1e6 / $1 }'
+    NR == 1 { printf "\"%s\",%.1f,%.2f,%.0f\n", name, bytes / 1e6, $1, bytes / 1e6 / $1 }'
 }
 
+# reading_summary CSV: sentences on all rows.
+reading_summary() {
+  awk -F '"?,' -v turns="$TEXT_TURNS" -v patches=$((32 * TEXT_TEAPOTS)) '
+    NR == 1 { next }
+    { name = $0; sub(/^"/, "", name); sub(/",.*/, "", name); rate = $NF + 0
+      if (name == "canonical") canonical = rate
+      if (least == "" || rate < least) { least = rate; slow = name }
+      if (rate > most) { most = rate; fast = name }
+      all[++n] = rate; for (k = n; k > 1 && all[k - 1] > all[k]; k--) { t = all[k]; all[k] = all[k - 1]; all[k - 1] = t } }
+    END {
+      printf "CPU time from text to scene, the least of %d turns: `pscn dump`\047s text of %d patches is read at %d MB/s. Twenty-six\n", turns, patches, canonical
+      printf "other kinds of text take from %d MB/s (%s) to %d MB/s (%s), in the median %d\n", least, slow, most, fast, all[int((n + 1) / 2)]
+      print "([reading.csv](performance/reading.csv))." }' "$1"
+}
 {
-  echo
-  echo "### Reading"
-  echo
-  echo "CPU time from text to scene, the least of $TEXT_TURNS turns; asked: 50 MB/s. The canonical text is \`pscn dump\`'s of"
-  echo "$((32 * TEXT_TEAPOTS)) patches, every one written out. Of copies each line becomes a patch of 416 bytes."
-  echo
-  echo "| text | MB | s | MB/s |"
-  echo "|---|---|---|---|"
+  echo 'text,MB,s,MB_per_s'
   examples/field.sh "$TEXT_TEAPOTS" >"$folder/field.pscn"
   "$pscn" dump "$folder/field.pscn" >"$folder/text.pscn"
   reading canonical "$folder/text.pscn"
@@ -230,7 +237,13 @@ reading() {
     text "$kind" >"$folder/text.pscn"
     reading "$kind" "$folder/text.pscn"
   done
-} | tee -a "$folder/section" >&2
+} | tee "$folder/reading.csv" >&2
+{
+  echo
+  echo "### Reading"
+  echo
+  reading_summary "$folder/reading.csv"
+} >>"$folder/section"
 
 # ---- size ----
 
@@ -274,6 +287,6 @@ for threads in "${THREADS[@]}"; do
   }' | tee -a "$folder/section" >&2
 done
 
-cp "$folder/scale.svg" docs/performance/scale.svg
+cp "$folder/scale.svg" "$folder/reading.csv" docs/performance/
 replace_section docs/performance.md Scale "$folder/section"
 echo "docs/performance.md is written" >&2

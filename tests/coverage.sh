@@ -1,6 +1,6 @@
 #!/bin/bash
 # coverage.sh: how much of the sources the tests run, and how much the inputs of the fuzz targets run alone: lines and
-# branches by folder, as the table of docs/testing.md. Builds into build-coverage (gcc, -O1) and runs ctest, heavy tests
+# branches by folder, as a table. Builds into build-coverage (gcc, -O1) and runs ctest, heavy tests
 # with PSCN_EFFORT (0.0001): half an hour on two cores.
 #
 #   coverage.sh           the table

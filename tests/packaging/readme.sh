@@ -1,5 +1,5 @@
 #!/bin/bash
-# readme.sh: the scene at the top of README.md has the nine lines that it claims, is read without a message, and is
+# readme.sh: the scene at the top of README.md has the eight lines that it claims, is read without a message, and is
 # visible; POV-Ray, if installed, shows the same. The files and headings that README.md and docs/ link to exist.
 set -uo pipefail
 folder=$(mktemp -d)
@@ -8,8 +8,8 @@ cd "$folder" || exit 1
 failed=0
 say() { echo "$*"; failed=1; }
 
-sed -n '/^A scene is nine lines/,/^[A-Z].*POV-Ray/s/^    //p' "$PSCN_SOURCE_DIR/README.md" >bowl.pscn
-[ "$(wc -l <bowl.pscn)" -eq 9 ] || say "the scene has $(wc -l <bowl.pscn) lines"
+sed -n '/ eight lines /,/^`/s/^    //p' "$PSCN_SOURCE_DIR/README.md" >bowl.pscn
+[ "$(wc -l <bowl.pscn)" -eq 8 ] || say "the scene has $(wc -l <bowl.pscn) lines"
 "$PSCN" bowl.pscn --size 40x30 -q --stats stats.json 2>said || say "it is not rendered"
 [ ! -s said ] && [ -s bowl.png ] || say "pscn says of it: $(cat said)"
 accepted=$(sed -n 's/.*"accepted": \([0-9]*\).*/\1/p' stats.json)
