@@ -40,7 +40,7 @@ documented() { # BEGINNING NAMES...
     fail "docs/povray.md does not say $beginning: $*"
 }
 documented read "${read[@]}"
-documented 'refused, for they put things into the scene' "${refused[@]}"
+documented 'refused, because they put things into the scene' "${refused[@]}"
 
 # If used, each says what it is made of, and where that is.
 used() { # FILE LINE NAME LIBRARY WORD
