@@ -253,7 +253,7 @@ fi
 if [ -n "$page" ]; then
   {
     echo "Written by \`examples/benchmark.sh --page\`; medians of $runs turns of its last run, in brackets the smallest"
-    echo "and the largest. The teapot at $SIZE, one thread, the default solver where nothing else is said."
+    echo "and the largest. The teapot at $SIZE, one thread, the default solver unless stated otherwise."
     echo
     cat "$folder/table"
   } >"$folder/section"

@@ -32,7 +32,7 @@ static enum status ask_rivals(struct chart *chart)
   for (int k = EIGEN; handle != NULL && k < WAYS; k++)
     *(void **)&ways[k].seek = dlsym(handle, k == EIGEN ? RIVAL_COMPANION : RIVAL_PENCIL);
   if (handle == NULL)
-    chart_note(chart, "Eigenvalues are left out: there is no %s, which is built where LAPACK is found.",
+    chart_note(chart, "Eigenvalues are left out: there is no %s, which is built if LAPACK is found.",
                RIVAL_MODULE_FILE);
   struct rivals *rivals = rivals_create(chart->scene, chart->rays);
   if (rivals == NULL) return STATUS_LIMIT;
@@ -143,7 +143,7 @@ static enum status ask_embree(struct chart *chart)
   void *handle = module_open(EMBREE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   const struct embree_peer *peer = handle == NULL ? NULL : dlsym(handle, EMBREE_MODULE_SYMBOL);
   if (peer == NULL) {
-    chart_note(chart, "Embree is left out: there is no %s, which is built where libembree-dev is found.",
+    chart_note(chart, "Embree is left out: there is no %s, which is built if libembree-dev is found.",
                EMBREE_MODULE_FILE);
     return STATUS_OK;
   }
@@ -152,7 +152,7 @@ static enum status ask_embree(struct chart *chart)
   if (status == STATUS_OK)
     chart_note(chart, "Embree: each mesh in turn with pscn's default solver, one thread; its answers are those of "
                       "rtcIntersect1 and rtcOccluded1.");
-  else if (status == STATUS_FILE) chart_note(chart, "Embree failed, and what is missing of it is left out.");
+  else if (status == STATUS_FILE) chart_note(chart, "Embree failed, and its missing points are left out.");
   return status == STATUS_FILE ? STATUS_OK : status;
 }
 
@@ -228,7 +228,7 @@ static enum status ask_povray(struct chart *chart)
                "%zux%zu pixels of the scene in white without lights, parsing apart.",
                povray.version, povray.width, povray.height);
   else if (status != STATUS_INTERRUPTED && !povray.missing)
-    chart_note(chart, "POV-Ray failed, and what is missing of it is left out.");
+    chart_note(chart, "POV-Ray failed, and its missing points are left out.");
   povray_close(&povray);
   return status == STATUS_INTERRUPTED ? status : STATUS_OK;
 }
@@ -237,7 +237,7 @@ enum status chart_peers(struct chart *chart)
 {
   enum status status = ask_rivals(chart);
   if (!chart->request->peers) {
-    chart_note(chart, "Embree and POV-Ray were not asked (--no-peers).");
+    chart_note(chart, "Embree and POV-Ray are left out (--no-peers).");
     return status;
   }
   if (status == STATUS_OK) status = ask_embree(chart);

@@ -218,7 +218,7 @@ static enum status render_first(struct check *check, struct povray_picture *out)
   } else {
     const enum status status = povray_render_file(&check->povray, request->path, request->folders, word, out);
     if (status == STATUS_INPUT && check->povray.refused)
-      listener_tell(check->listener, TOLD_DETAIL, "With --dump POV-Ray reads what pscn understood of the scene.");
+      listener_tell(check->listener, TOLD_DETAIL, "With --dump POV-Ray reads the dump of the scene.");
     if (status != STATUS_OK || word[0] == '\0') return status;
     snprintf(check->dumped, sizeof check->dumped, "%s could read or write files", word);
     listener_tell(check->listener, TOLD_WARNING, "POV-Ray reads the dump of the scene, not its file: %s",

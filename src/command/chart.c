@@ -27,17 +27,16 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TEXT("output", 'o', folder.path, "folder of the results; default: SCENE's name and -chart", "DIR"),
   SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
   SCENE_READING_OPTIONS,
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "this one and the default only; may be given several times", "TEXT"),
+  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "only this solver and the default; may be repeated", "TEXT"),
   COMMAND_INTEGER("rays", chart.rays, 1, MAX_RAYS, "number of rays",
-                  "about so many camera rays; default 2048, 1024 with --quick", "N"),
+                  "about this many camera rays; default 2048, 1024 with --quick", "N"),
   COMMAND_INTEGER("rounds", chart.rounds, 1, MEASURE_MAX_ROUNDS, "number of rounds",
-                  "measure each so often; default 5, 3 with --quick", "N"),
+                  "number of measurements of each; default 5, 3 with --quick", "N"),
   COMMAND_TRUE("quick", 0, chart.quick, "fewer tolerances, rays and peers: under a minute"),
-  COMMAND_TRUE("no-peers", 0, no_peers, "ask neither Embree nor POV-Ray"),
+  COMMAND_TRUE("no-peers", 0, no_peers, "leave out Embree and POV-Ray"),
   COMMAND_TEXT("povray", 0, chart.program, "the program; default povray", "FILE"),
-  COMMAND_POSITIVE("timeout", chart.timeout, "number of seconds", "seconds that each run of it may take; default 300",
-                   "S"),
-  COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
+  COMMAND_POSITIVE("timeout", chart.timeout, "number of seconds", "limit of each run of POV-Ray; default 300", "S"),
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
 
@@ -97,14 +96,17 @@ const struct command command_chart = {
   .arguments = "SCENE",
   .summary = "Charts speed against accuracy, for every solver and the peers",
   .description =
-    "Camera rays of the scene, chosen evenly, and their shadow rays are answered by every solver but durand_kerner,\n"
-    "in every basis, at tolerances from 1e-1 to 1e-15, with and without polish, from cold and from previous start\n"
-    "values, and as in the paper; by rival methods (Newton, clipping, boxes, eigenvalues); by Embree on triangles,\n"
-    "where its module is built; and by POV-Ray, where it is installed. Each is timed in turns on one thread, and\n"
-    "judged by a reference in quadruple precision that shares nothing with them. DIR receives chart.csv with every\n"
-    "point, chart.svg with the Pareto front (drawn by gnuplot), and chart.html, which needs nothing beside itself.\n"
-    "Standard output has the front. Solver statements of the scene mean nothing here; with --solver only the solvers\n"
-    "that it names and the default are charted.\n",
+    "Solves camera rays of the scene, chosen evenly, and their shadow rays by every solver but durand_kerner, in "
+    "every\n"
+    "basis, at tolerances from 1e-1 to 1e-15, with and without polish, from cold and from previous start values, and "
+    "as\n"
+    "in the paper; by rival methods (Newton, clipping, boxes, eigenvalues); by Embree on triangles and by POV-Ray, if "
+    "they\n"
+    "are installed. All take turns on one thread. A reference in quadruple precision, which shares nothing with them,\n"
+    "finds the errors. DIR receives chart.csv with every point, chart.svg with the Pareto front (drawn by gnuplot), "
+    "and\n"
+    "the self-contained chart.html. Standard output has the front. Solver statements of the scene are ignored; with\n"
+    "--solver only the named solvers and the default are charted.\n",
   .options = OPTIONS,
   .run = run,
 };

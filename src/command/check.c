@@ -36,17 +36,16 @@ static const struct command_option OPTIONS[] = {
   COMMAND_INTEGER("grid", check.grid, 0, MAX_GRID, "grid",
                   "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
   COMMAND_TEXT("povray", 0, check.program, "the program; default povray", "FILE"),
-  COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),
-  COMMAND_TRUE("dump", 0, dump, "also in the first row it reads what pscn understood of the scene"),
-  COMMAND_POSITIVE("timeout", check.timeout, "number of seconds", "seconds that each run of it may take; default 300",
-                   "S"),
+  COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to POV-Ray; may be repeated", "OPT"),
+  COMMAND_TRUE("dump", 0, dump, "POV-Ray reads the dump for the first picture, too"),
+  COMMAND_POSITIVE("timeout", check.timeout, "number of seconds", "limit of each run of POV-Ray; default 300", "S"),
   COMMAND_NUMBER("fail", check.fail.each, "a pixel fails beyond this difference; default 4/255", "E"),
-  COMMAND_NUMBER("failpercent", check.fail.percent, "so many percent of the pixels may; default 0.3", "P"),
-  COMMAND_NUMBER("allowfailures", check.fail.allowed_pixels, "or so many pixels may; default 0", "N"),
-  COMMAND_NUMBER("hardfail", check.fail.any, "but none beyond this difference; default none", "E"),
+  COMMAND_NUMBER("failpercent", check.fail.percent, "percent of the pixels that may fail; default 0.3", "P"),
+  COMMAND_NUMBER("allowfailures", check.fail.allowed_pixels, "or number of pixels that may fail; default 0", "N"),
+  COMMAND_NUMBER("hardfail", check.fail.any, "difference that no pixel may exceed; default none", "E"),
   COMMAND_NUMBER("failpsnr", check.fail_psnr, "the least PSNR; default 40", "DB"),
   COMMAND_NUMBER("failmask", check.fail_mask, "percent of the pixels that only one may hit; default 0.3", "P"),
-  COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
 
@@ -112,7 +111,7 @@ static const char *dumped_because(const struct request *request)
   if (request->dump) return "--dump is given";
   if (request->scene.untrusted) return "--untrusted is given";
   const bool file = !output_is_standard(path) && (stat(path, &info) != 0 || S_ISREG(info.st_mode));
-  return file ? NULL : "the scene is no file that can be read again";
+  return file ? NULL : "the scene is not a file that can be read again";
 }
 
 static enum status work(void *context, const char *folder, struct text_buffer *out_text)
@@ -178,15 +177,22 @@ const struct command command_check = {
   .summary = "Renders a scene here and by POV-Ray and compares the pictures",
   .description =
     "POV-Ray renders the scene as it is written, and then with every patch cut finer and finer (u_steps = v_steps = 1\n"
-    "to 6, flatness 0), which shows it converging towards the exact surface. Standard output tells how many pixels\n"
-    "differ by more than 1, 4 and 16 of 255, how many of those beyond the limit are not on a silhouette, a shadow's\n"
-    "edge or a crease, which pixels only one of both hits, the time of both, and the differences of the distances\n"
-    "that POV-Ray's trace() answers. DIR receives check.html, which needs nothing beside itself, check.json, and\n"
-    "the pictures. The exit code is 1 where the last picture exceeds a limit.\n"
-    "POV-Ray runs without the user's settings, on one thread, without antialiasing, in a folder of its own, with a\n"
-    "limit of time and memory. For the first picture it reads the scene's file, without solver statements. For the\n"
-    "others it reads what pscn understood (pscn dump); so it does for all with --dump, and if the scene could read or\n"
-    "write other files.\n",
+    "to 6, flatness 0), which shows it converging towards the exact surface. Standard output has the number of pixels "
+    "that\n"
+    "differ by more than 1, 4 and 16 of 255, of those beyond the limit that are not on a silhouette, a shadow's edge "
+    "or a\n"
+    "crease, and of those that only one of both hits; the time of both; and the differences of the distances that\n"
+    "POV-Ray's trace() returns. DIR receives the self-contained check.html, check.json, and the pictures. The exit "
+    "code is\n"
+    "1 if the last picture exceeds a limit.\n"
+    "\n"
+    "POV-Ray runs without the user's settings, on one thread, without antialiasing, in a folder of its own, with a "
+    "limit\n"
+    "of time and memory. For the first picture it reads the scene's file, without solver statements. For the others "
+    "it\n"
+    "reads the dump (pscn dump). It reads the dump for all pictures with --dump, and if the scene could read or write "
+    "other\n"
+    "files.\n",
   .options = OPTIONS,
   .run = run,
 };

@@ -74,7 +74,10 @@ void command_print_overview(FILE *file)
         file);
   for (const struct command *const *command = commands; *command != NULL; command++)
     fprintf(file, "  %-8s %-12s %s\n", (*command)->name, (*command)->arguments, (*command)->summary);
-  fputs("\n'pscn SCENE' renders it. 'pscn help COMMAND' tells more of each, 'pscn --version' the version.\n", file);
+  fputs("\n"
+        "'pscn SCENE' renders the scene. 'pscn help COMMAND' explains a command, 'pscn --version' prints the "
+        "version.\n",
+        file);
   fputs(command_exit_codes, file);
 }
 
@@ -135,7 +138,7 @@ enum status command_usage(const struct command *command, const char *format, ...
 enum status command_out_of_memory(const struct command *command)
 {
   command_error(command, "%s",
-                memory_limit_reached() ? "the scene takes more memory than is allowed; --max-memory allows more"
+                memory_limit_reached() ? "the scene needs more memory than is allowed; --max-memory allows more"
                                        : "out of memory");
   return STATUS_LIMIT;
 }
@@ -199,14 +202,14 @@ static const struct {
   {"R", "--samples N takes N x N rays a pixel"},
   {"K", "--clock X sets the clock"},
   {"L", "-I DIR names a folder of included files"},
-  {"C", "--resume goes on where an earlier run was ended"},
+  {"C", "--resume continues where an earlier run ended"},
   {"F", "the suffix of -o FILE sets the format, .png or .exr, --bits the bits of a value"},
-  {"D", "no picture is shown while it is rendered: leave it out"},
-  {"P", "no picture is shown while it is rendered: leave it out"},
-  {"V", "-q says nothing unless something is wrong"},
-  {"G", "-q says nothing unless something is wrong"},
+  {"D", "pictures are not shown during rendering: leave it out"},
+  {"P", "pictures are not shown during rendering: leave it out"},
+  {"V", "-q prints nothing unless something is wrong"},
+  {"G", "-q prints nothing unless something is wrong"},
   {"Q", "a picture has one quality: leave it out"},
-  {"J", "the samples stand on a regular grid: leave it out"},
+  {"J", "samples lie on a regular grid: leave it out"},
 };
 
 /* What to write instead of a word that is an option of POV-Ray's; NULL if it is none, or the command renders nothing. */
@@ -296,16 +299,17 @@ static enum status store_option(const struct command *command, const struct comm
   case STORE_TRUE: *(bool *)field = true; return STATUS_OK;
   case STORE_NUMBER:
     if (value_number(argument, field)) return STATUS_OK;
-    return command_usage(command, "option '--%s': '%s' is no number from 0 up, such as 0.01 or 4/255", option->name,
-                         argument);
+    return command_usage(command, "option '--%s': '%s' is not a number of at least 0, such as 0.01 or 4/255",
+                         option->name, argument);
   case STORE_POSITIVE:
     if (!value_number(argument, &number) || number == 0)
-      return command_usage(command, "'%s' is no %s", argument, option->what);
+      return command_usage(command, "'%s' is not a %s", argument, option->what);
     *(double *)field = number;
     return STATUS_OK;
   case STORE_INTEGER:
     if (value_integer(argument, option->least, option->most, field)) return STATUS_OK;
-    return command_usage(command, "'%s' is no %s from %zu to %zu", argument, option->what, option->least, option->most);
+    return command_usage(command, "'%s' is not a %s from %zu to %zu", argument, option->what, option->least,
+                         option->most);
   default: return handle(command, context, option->val, argument);
   }
 }

@@ -23,15 +23,15 @@ static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_TEXT("output", 'o', output, "picture of the absolute differences, .png or .exr", "DIFF"),
   COMMAND_POSITIVE("scale", scale, "factor above 0", "factor of the differences in that picture; default 1", "S"),
-  COMMAND_TEXT("channels", 0, channels, "only these, by name, with commas: R,G,B,depth", "LIST"),
+  COMMAND_TEXT("channels", 0, channels, "only these channels, separated by commas: R,G,B,depth", "LIST"),
   COMMAND_NUMBER("fail", fail.each, "a pixel fails beyond this difference; default 1e-6", "E"),
-  COMMAND_NUMBER("failpercent", fail.percent, "so many percent of the pixels may; default 0", "P"),
-  COMMAND_NUMBER("allowfailures", fail.allowed_pixels, "or so many pixels may; default 0", "N"),
-  COMMAND_NUMBER("hardfail", fail.any, "but none beyond this difference; default none", "E"),
-  COMMAND_NUMBER("warn", warn.each, "a warning, which is no failure, beyond this; default none", "E"),
-  COMMAND_NUMBER("warnpercent", warn.percent, "so many percent of the pixels may; default 0", "P"),
-  COMMAND_NUMBER("hardwarn", warn.any, "a warning if any pixel is beyond this; default none", "E"),
-  COMMAND_TRUE("quiet", 'q', quiet, "say nothing unless the comparison fails"),
+  COMMAND_NUMBER("failpercent", fail.percent, "percent of the pixels that may fail; default 0", "P"),
+  COMMAND_NUMBER("allowfailures", fail.allowed_pixels, "or number of pixels that may fail; default 0", "N"),
+  COMMAND_NUMBER("hardfail", fail.any, "difference that no pixel may exceed; default none", "E"),
+  COMMAND_NUMBER("warn", warn.each, "as --fail, but only a warning; default none", "E"),
+  COMMAND_NUMBER("warnpercent", warn.percent, "percent of the pixels beyond --warn without a warning; default 0", "P"),
+  COMMAND_NUMBER("hardwarn", warn.any, "a warning if any pixel exceeds this; default none", "E"),
+  COMMAND_TRUE("quiet", 'q', quiet, "print nothing unless the comparison fails"),
   COMMAND_OPTIONS_END,
 };
 
@@ -241,10 +241,11 @@ const struct command command_compare = {
   .arguments = "A B",
   .summary = "Compares two pictures",
   .description =
-    "Standard output tells mean, root mean square and largest difference of the values as they are stored (0 to 1\n"
-    "in integer files), the signal to noise ratio, and how many pixels are over 1/255, 4/255, 16/255 and the limit.\n"
-    "The numbers are defined as those of OpenImageIO's idiff. Channels are paired by name. Limits may be quotients,\n"
-    "4/255. The exit code is 1 where the pictures differ by more than the limits, or in size or channels.\n",
+    "Standard output has mean, root mean square and largest difference of the values as they are stored (0 to 1 in\n"
+    "integer files), the signal to noise ratio, and how many pixels are over 1/255, 4/255, 16/255 and the limit. The\n"
+    "numbers are defined as those of OpenImageIO's idiff. Channels are paired by name. Limits may be quotients: "
+    "4/255.\n"
+    "The exit code is 1 if the pictures differ by more than the limits, or in size or channels.\n",
   .options = OPTIONS,
   .run = run,
 };

@@ -9,9 +9,9 @@ struct request {
 
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
-  SCENE_SIZE_OPTION("what image_width and image_height mean; default 800x600"),
+  SCENE_SIZE_OPTION("values of image_width and image_height; default 800x600"),
   SCENE_OPTIONS,
-  COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"), /* no warnings */
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "print nothing unless something is wrong"), /* no warnings */
   COMMAND_OPTIONS_END,
 };
 

@@ -74,7 +74,7 @@ static void put_roots(const struct teller *teller, const struct explained_candid
   else printf("  r, highest power of x = %c/(1-%c) first:\n", kept, kept);
   if (found->degree > 0) put_row("r", highest_first, found->degree + 1);
   printf("  %d roots by %s%s\n", found->roots.count, method->roots.solver->name,
-         candidate->by_solver ? "" : ", asked for this story; the ray took the short way on lanes");
+         candidate->by_solver ? "" : ", found for this explanation only; the ray needed no solver");
   for (int k = 0; k < found->roots.count; k++) {
     const struct root *root = &found->roots.root[k];
     printf("    %c =", kept);
@@ -89,18 +89,17 @@ static void put_roots(const struct teller *teller, const struct explained_candid
 static void put_outcome(struct teller *teller, const struct explained_candidate *candidate)
 {
   if (candidate->taken) {
-    printf("  taken: T =");
+    printf("  accepted: T =");
     put_number(candidate->hit_t * teller->length);
     printf(", the nearest so far%s\n", candidate->left_open ? "; a part is left to the last resort" : "");
     printf("  certificate: ");
     if (candidate->proven)
       printf("a and b have exactly one common root within %.2g of u = %.17g and %.2g of v = %.17g\n",
              candidate->radius_u, candidate->hit_u, candidate->radius_v, candidate->hit_v);
-    else printf("none, 'polish off' takes the solver's roots as they are\n");
+    else printf("none: with 'polish off' the solver's roots are the answer\n");
     teller->nearest = candidate->hit_t * teller->length;
   } else if (candidate->left_open) {
-    printf(
-      "  left to the last resort: what double precision cannot decide (a border, a tangency, an end of the ray)\n");
+    printf("  left to the last resort: double precision cannot decide it (a border, a tangency, an end of the ray)\n");
   } else if (candidate->reached == STAGE_PLANES) {
     printf("  missed, proven: a, b or a combination of them keeps one sign on the leaf\n");
   } else if (candidate->reached == STAGE_RESULTANT) {
@@ -109,8 +108,8 @@ static void put_outcome(struct teller *teller, const struct explained_candidate 
     bool behind = false;
     for (int k = 0; k < candidate->found.roots.count; k++)
       behind |= candidate->found.fate[k] == ROOT_OFFERED && candidate->t[k] * teller->length >= teller->nearest;
-    printf("  nothing taken: %s\n",
-           behind ? "not nearer than the nearest so far, or not on the leaf" : "no root on the leaf and ahead");
+    printf("  nothing accepted: %s\n", behind ? "not nearer than the nearest so far, or not on the leaf"
+                                              : "no root on the leaf in front of the ray's start");
   }
   teller->left_open += candidate->left_open;
 }
@@ -123,14 +122,14 @@ static void tell(void *context, const struct explained_candidate *candidate)
   const int *split = candidate->split;
   printf("candidate %zu: patch %u", ++teller->candidates, candidate->patch);
   if (split[0] * split[1] > 1)
-    printf(", its part [%d,%d]/%d x [%d,%d]/%d, which u, v = 0..1 are here", candidate->column_u,
+    printf(", its part [%d,%d]/%d x [%d,%d]/%d, on which u, v run from 0 to 1 here", candidate->column_u,
            candidate->column_u + 1, split[0], candidate->column_v, candidate->column_v + 1, split[1]);
   if (candidate->blind) {
     printf("\n  left to the last resort: the ray starts so far away that rounding leaves nothing of a and b\n");
     teller->left_open++;
     return;
   }
-  printf("; came to %s\n", stages[candidate->reached]);
+  printf("; last stage: %s\n", stages[candidate->reached]);
   printf("  eq 3, Bernstein coefficients of degree %d in %c and %d in %c:\n", candidate->kept_degree,
          candidate->v_kept ? 'v' : 'u', candidate->other_degree, candidate->v_kept ? 'u' : 'v');
   put_net("a", candidate, candidate->a);
@@ -150,7 +149,7 @@ void explain_ray(const struct scene *scene, struct tracer *tracer, size_t number
   putchar('\n');
   tracer_explain(tracer, ray, tell, &teller, &hit);
   if (teller.left_open > 0)
-    printf("last resort: %zu of %zu candidates, searched in the order in which the ray meets them\n", teller.left_open,
+    printf("last resort: %zu of %zu candidates, searched in their order along the ray\n", teller.left_open,
            teller.candidates);
   if (hit.patch == HIT_NONE) {
     printf("answer: miss");

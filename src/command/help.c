@@ -23,7 +23,8 @@ static void print_solver_help(void)
 {
   puts("usage: solver NAME { ITEM VALUE ... }          in a scene\n"
        "       --solver 'NAME { ITEM VALUE ... }'       of render, trace, roots, dump and check\n"
-       "How roots are found, and of what. Each item may be left out; so may the braces, if they are empty.\n\n"
+       "Chooses how roots are found. Every item may be left out, and so may empty braces.\n"
+       "\n"
        "Names:");
   for (size_t k = 0; k < solver_count(); k++) printf("  %-15s %s\n", solver_at(k)->name, solver_at(k)->summary);
   puts("\nItems:");
@@ -33,7 +34,8 @@ static void print_solver_help(void)
 static void print_channels_help(void)
 {
   puts("usage: --channels NAME[,NAME...]       of render, into an EXR\n"
-       "What is told of each pixel; in the file the values have the names in brackets.\n\n"
+       "The values of each pixel; their names in the file are in brackets.\n"
+       "\n"
        "Names:");
   for (int kind = 0; kind < CHANNEL_KINDS; kind++) {
     const struct channel_traits *traits = channel_traits((enum channel_kind)kind);
@@ -70,10 +72,11 @@ static enum status run(const struct command *command, int argc, const char **arg
 const struct command command_help = {
   .name = "help",
   .arguments = "[COMMAND]",
-  .summary = "Tells how pscn or one of its commands is used",
+  .summary = "Explains pscn or one of its commands",
   .description =
-    "Without an argument the commands are listed. `pscn help solver` lists what a scene, or --solver, may say of\n"
-    "solvers, `pscn help channels` what --channels may.\n",
+    "Without an argument it lists the commands. `pscn help solver` lists the solvers and their items, `pscn "
+    "help channels`\n"
+    "the channels of a picture.\n",
   .options = OPTIONS,
   .run = run,
 };

@@ -76,7 +76,8 @@ int main(int argc, char **argv)
   }
   if (command == NULL) return (int)command_unknown(name);
   if (!intersector_kernel_here())
-    return (int)command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
+    return (int)command_usage(NULL, "PSCN_KERNEL='%s' is not an instruction set of this processor",
+                              getenv("PSCN_KERNEL"));
   struct call call = {command, argc - words, (const char **)argv + words, false};
   const int code = (int)threads_run_deep(run_call, &call);
   if (!call.ran) return (int)command_out_of_memory(command); /* there was no memory for the thread */

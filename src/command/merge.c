@@ -24,7 +24,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_TEXT("output", 'o', output, "the picture, .png or .exr", "FILE"),
   COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
-  COMMAND_TRUE("quiet", 'q', quiet, "say nothing unless something is wrong"),
+  COMMAND_TRUE("quiet", 'q', quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
 
@@ -121,7 +121,7 @@ static enum status create_picture(struct merge *merge)
 {
   const struct file *first = merge->first;
   if (merge->request->format == IMAGE_PNG && !channel_list_is_rgb(&first->piece.channels))
-    return command_usage(merge->command, "a PNG holds the channel rgb only, and '%s' has others: they need an .exr",
+    return command_usage(merge->command, "a PNG holds only the channel rgb, and '%s' has others: use .exr",
                          first->path);
   const enum status status = piece_create_like(&first->piece, 1, 1, &merge->picture);
   return status == STATUS_OK ? status : command_out_of_memory(merge->command);
@@ -176,11 +176,11 @@ static enum status read_files(struct merge *merge)
     struct piece whole;
     if (file->good && compare(file, merge->first, message, sizeof message) != 0)
       refuse(merge, file, "is a piece of another picture; ", message);
-    if (file->good && has_twice(merge, &file->piece)) refuse(merge, file, "", "what it has is in a file before it too");
+    if (file->good && has_twice(merge, &file->piece)) refuse(merge, file, "", "its tiles are in an earlier file, too");
     if (!file->good) continue;
     const enum status status = piece_read(file->path, true, &whole, message);
     if (status != STATUS_OK) refuse(merge, file, "", message);
-    else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it was written anew meanwhile");
+    else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it was rewritten meanwhile");
     else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "", "it lacks a channel");
     else count_tiles(merge, &whole);
     merge->seconds += seconds_of(&whole.image);
@@ -209,7 +209,7 @@ static enum status print_missing(const struct merge *merge, bool *out_any)
   const enum status status = text.failed ? command_out_of_memory(merge->command) : STATUS_OK;
   if (status == STATUS_OK && *out_any) {
     puts(text.text);
-    command_error(merge->command, "of %zu pieces these are missing or not complete: %s; no picture is written",
+    command_error(merge->command, "of %zu pieces these are missing or incomplete: %s; no picture is written",
                   merge->first->piece.count, text.text);
   }
   text_buffer_free(&text);
@@ -290,7 +290,7 @@ static enum status put_together(struct merge *merge)
 
 static enum status check(const struct command *command, struct request *request, const struct command_line *line)
 {
-  if (request->output == NULL) return command_usage(command, "-o FILE says what the picture is called");
+  if (request->output == NULL) return command_usage(command, "name the picture with -o FILE");
   enum status status = output_format(command, request->output, &request->format);
   if (status != STATUS_OK) return status;
   if (request->bits == 0) request->bits = (size_t)image_format_default_bits(request->format);
@@ -324,14 +324,17 @@ const struct command command_merge = {
   .arguments = "PIECE...",
   .summary = "Puts the pieces of a picture together",
   .description =
-    "Pieces are what 'pscn render --tile K/N' writes, K = 1 to N, on any machines and in any order; what an\n"
-    "interrupted rendering has kept (*.part.exr) is one too. The picture is, pixel by pixel and bit by bit, the one\n"
-    "that a single rendering without --tile makes.\n"
+    "Pieces are the files of 'pscn render --tile K/N', K = 1 to N, rendered on any machines and in any order, and what "
+    "an\n"
+    "interrupted rendering has kept (*.part.exr). The picture is, bit by bit, that of a single rendering without "
+    "--tile.\n"
     "\n"
-    "Each piece says what it is of: the text of the scene and of all it includes, the options, the version and the\n"
-    "kind of processor. Where a piece is missing, cannot be read, is of another picture than most or has what another\n"
-    "one has as well, no picture is written, the exit code is 1, and standard output has the numbers of the pieces\n"
-    "that are still to be rendered, such as 2,5-7: what sbatch --array takes.\n",
+    "Each piece records its picture: the text of the scene and of all its includes, the options, the version and the "
+    "kind\n"
+    "of processor. If a piece is missing, cannot be read, belongs to another picture than most or has tiles of "
+    "another\n"
+    "piece, no picture is written and the exit code is 1. Standard output then has the numbers of the pieces that are\n"
+    "still to be rendered, such as 2,5-7, in the form of sbatch --array.\n",
   .options = OPTIONS,
   .run = run,
 };

@@ -37,7 +37,7 @@ bool output_is_standard(const char *path) { return strcmp(path, "-") == 0; }
 const char *output_reason(const char *path, int reason)
 {
   char byte;
-  return reason == ENOENT && readlink(path, &byte, 1) >= 0 ? "it is a link to what is not there" : strerror(reason);
+  return reason == ENOENT && readlink(path, &byte, 1) >= 0 ? "it is a link to a missing file" : strerror(reason);
 }
 
 /* Prints why a file was not probed or written. */
@@ -81,7 +81,7 @@ enum status output_picture(const struct command *command, const struct image *im
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
   enum status status = image_encode(image, encoding, &bytes, &size, message);
-  if (status != STATUS_OK) command_error(command, "cannot make '%s': %s", path, message);
+  if (status != STATUS_OK) command_error(command, "cannot create '%s': %s", path, message);
   else status = output_write(command, &(struct atomic_file){path, bytes, size}, 1);
   free(bytes);
   return status;
@@ -102,7 +102,7 @@ enum status output_spare(const struct command *command, const char *path, const 
   if (path == NULL || other == NULL) return STATUS_OK;
   const char *file = output_is_standard(path) && !output_is_standard(other) ? "/dev/stdout" : path;
   if (strcmp(file, other) != 0 && !input_same(file, other)) return STATUS_OK;
-  return command_usage(command, "'%s' and '%s' are one file and must be two", file, other);
+  return command_usage(command, "'%s' and '%s' are the same file", file, other);
 }
 
 enum status output_spare_input(const struct command *command, const char *path, const char *input)
@@ -136,7 +136,7 @@ static enum status make_folder(const struct command *command, const struct outpu
   if (*out_path == NULL) return command_out_of_memory(command);
   *out_made = mkdir(*out_path, 0777) == 0;
   if (*out_made || (errno == EEXIST && stat(*out_path, &state) == 0 && S_ISDIR(state.st_mode))) return STATUS_OK;
-  command_error(command, "cannot make the folder '%s': %s", *out_path, strerror(errno));
+  command_error(command, "cannot create the folder '%s': %s", *out_path, strerror(errno));
   return STATUS_FILE;
 }
 

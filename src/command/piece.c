@@ -278,7 +278,7 @@ static enum status check_sum(const struct piece *piece, char *message)
   char sum[SUM_SIZE];
   enum status status = make_sum(image, &piece->tiles, tile, tile_length, done == NULL ? "" : done, done_length, sum);
   if (status == STATUS_OK && !(length == SUM_SIZE - 1 && memcmp(said, sum, length) == 0)) status = STATUS_INPUT;
-  return told(status, "it is damaged: it is not what was written", message);
+  return told(status, "it is damaged: its checksum is wrong", message);
 }
 
 /* The reading of a part: all of its metadata, and with `pixels` those of its tiles. */
@@ -297,7 +297,7 @@ static enum status wanted_areas(void *context, const struct image *image, const 
   if (status == STATUS_OK) status = read_channels(piece);
   *out_area = piece->tiles.tile;
   *out_count = reading->pixels ? piece->tiles.count : 0;
-  return told(status, "no piece of a picture", message);
+  return told(status, "it is not a piece of a picture", message);
 }
 
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message)

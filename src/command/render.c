@@ -42,15 +42,15 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
   COMMAND_INTEGER("threads", picture.options.threads, 1, MAX_THREADS, "number of threads",
                   "default: one for each processor", "N"),
-  COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "what is kept of each pixel, with commas; default rgb", "LIST"),
+  COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "values kept of each pixel, separated by commas; default rgb", "LIST"),
   COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
   COMMAND_OPTION("frames", 0, OPTION_FRAMES, "frames A to B of an animation; clock goes from 0 to 1 over them", "A-B"),
   COMMAND_OPTION("tile", 0, OPTION_TILE, "only piece K of N, from 1, as an EXR for pscn merge", "K/N"),
-  COMMAND_TRUE("resume", 0, picture.resume, "go on where an earlier run was ended"),
-  COMMAND_NUMBER("checkpoint", picture.checkpoint, "seconds after which what is done is kept; default 30, 0: never",
+  COMMAND_TRUE("resume", 0, picture.resume, "continue where an earlier run ended"),
+  COMMAND_NUMBER("checkpoint", picture.checkpoint, "seconds between writing the finished part; default 30, 0: never",
                  "S"),
   COMMAND_TEXT("stats", 0, picture.stats, "statistics as JSON; - is standard output", "FILE"),
-  COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
 
@@ -78,7 +78,7 @@ static enum status take_frames(const struct command *command, struct scene_reque
   const char *line = strchr(text, '-');
   if (line != NULL && (size_t)(line - text) < sizeof number) memcpy(number, text, (size_t)(line - text));
   if (!value_integer(number, 1, MAX_FRAME, &first) || !value_integer(line + 1, first, MAX_FRAME, &last))
-    return command_usage(command, "'%s' are no frames A-B, such as 1-24", text);
+    return command_usage(command, "'%s' is not a range of frames A-B, such as 1-24", text);
   scene->first_frame = (int)first;
   scene->last_frame = (int)last;
   return STATUS_OK;
@@ -90,7 +90,7 @@ static enum status take_option(const struct command *command, void *context, int
   switch (val) {
   case OPTION_CROP:
     if (!value_rectangle(argument, &request->picture.options.crop))
-      return command_usage(command, "'%s' is no crop X,Y,W,H in pixels", argument);
+      return command_usage(command, "'%s' is not a crop X,Y,W,H in pixels", argument);
     break;
   case OPTION_CHANNELS: return take_channels(command, request, argument);
   case OPTION_BITS:
@@ -100,7 +100,7 @@ static enum status take_option(const struct command *command, void *context, int
   case OPTION_FRAMES: return take_frames(command, &request->scene, argument);
   case OPTION_TILE:
     if (!piece_number(argument, strlen(argument), &request->picture.piece, &request->picture.pieces))
-      return command_usage(command, "'%s' is no piece K/N, such as 3/16", argument);
+      return command_usage(command, "'%s' is not a piece K/N, such as 3/16", argument);
     break;
   default: return scene_request_take(command, &request->scene, val, argument);
   }
@@ -129,7 +129,7 @@ static enum status check_format(const struct command *command, struct rendering_
     return command_usage(command, "'%s' cannot have %zu bits a value: %s", picture->output, picture->bits,
                          picture->format == IMAGE_PNG ? "a PNG has 8 or 16" : "an EXR has 16 or 32");
   if (picture->format == IMAGE_PNG && !plain)
-    return command_usage(command, "a PNG holds the channel rgb only; other channels need an .exr");
+    return command_usage(command, "a PNG holds only the channel rgb; other channels need .exr");
   return STATUS_OK;
 }
 
@@ -160,7 +160,7 @@ static enum status complete(const struct command *command, struct request *reque
   picture->scene = &request->scene;
   picture->options.width = request->scene.width, picture->options.height = request->scene.height;
   if (picture->output == NULL && request->scene.untrusted)
-    return command_usage(command, "-o FILE names the picture: with --untrusted it is not beside the scene");
+    return command_usage(command, "with --untrusted the picture is not written beside the scene; name it with -o FILE");
   if (picture->output == NULL) picture->output = request->output = output_name(request->scene.path, ".png");
   picture->how = request->how = scene_request_text(&request->scene);
   bool enough = picture->output != NULL && picture->how != NULL;
@@ -181,8 +181,11 @@ static enum status check_part(const struct command *command, struct rendering_re
   struct stat state;
   if (picture->part == NULL) return STATUS_OK;
   if (lstat(picture->part, &state) == 0 && S_ISLNK(state.st_mode)) {
-    command_error(command, "'%s', where what is done is kept, is a link; remove it, or name the picture otherwise",
-                  picture->part);
+    command_error(
+      command,
+      "'%s', in which the finished part would be kept, is a link; remove it, or choose another name for the "
+      "picture",
+      picture->part);
     return STATUS_FILE;
   }
   if (picture->resume) return output_probe(command, picture->part);
@@ -192,8 +195,8 @@ static enum status check_part(const struct command *command, struct rendering_re
   if (status == STATUS_OK && !special) return STATUS_OK;
   if (status == STATUS_LIMIT) return command_out_of_memory(command);
   if (!picture->scene->quiet)
-    command_warning(command, "nothing is kept of what is done, for '%s' cannot be written: %s", picture->part,
-                    special ? "it is no file" : output_reason(picture->part, reason));
+    command_warning(command, "the finished part will not be kept, because '%s' cannot be written: %s", picture->part,
+                    special ? "it is not a file" : output_reason(picture->part, reason));
   picture->part = NULL;
   return STATUS_OK;
 }
@@ -202,9 +205,9 @@ static enum status check_part(const struct command *command, struct rendering_re
 static enum status check(const struct command *command, struct rendering_request *picture)
 {
   if (picture->part == NULL && picture->resume)
-    return command_usage(command, "--resume wants a picture that is a file");
+    return command_usage(command, "--resume needs a picture that is a file");
   if (output_is_standard(picture->output) && isatty(STDOUT_FILENO) == 1)
-    return command_usage(command, "a picture is not written to a terminal; -o FILE says where to");
+    return command_usage(command, "a picture is not written to a terminal; name a file with -o FILE");
   enum status status = check_format(command, picture);
   if (status == STATUS_OK) status = check_crop(command, picture->scene->untrusted, &picture->options);
   if (status == STATUS_OK) status = rendering_check_outputs(command, picture, NULL);
@@ -249,12 +252,12 @@ static enum status make_frames(const struct command *command, const struct reque
 {
   const int first = request->scene.first_frame, last = request->scene.last_frame;
   if (request->picture.stats != NULL || request->picture.pieces > 0)
-    return command_usage(command, "--stats and --tile are of one picture, and --frames of several");
+    return command_usage(command, "--stats and --tile are for one picture, --frames for several");
   char *name = request->picture.output != NULL ? strdup(request->picture.output)
                                                : output_name(request->scene.path, ".png");
   enum status status = name == NULL ? command_out_of_memory(command) : STATUS_OK;
   if (status == STATUS_OK && output_is_standard(name))
-    status = command_usage(command, "frames are files; -o NAME.png says of which names");
+    status = command_usage(command, "frames are files; name them with -o NAME.png");
   for (int frame = first; frame <= last && status == STATUS_OK; frame++) {
     struct request one = *request;
     char *output = frame_name(name, frame, last);
@@ -293,15 +296,19 @@ const struct command command_render = {
     "The suffix chooses the format. PNG: 8 bits a value (--bits 16 for 16), sRGB. EXR: half floats (--bits 32 for\n"
     "floats), linear, not clipped. Neither --crop nor --threads changes a pixel.\n"
     "\n"
-    "What is done of FILE is kept in FILE.part.exr meanwhile, and stays where SIGINT, SIGTERM, SIGHUP or SIGXCPU ends\n"
-    "the rendering, the process is killed or FILE cannot be written: --resume goes on with it, pscn merge and viewers\n"
-    "read it. It goes when FILE is complete.\n"
+    "During rendering the finished part is kept in FILE.part.exr. It stays if SIGINT, SIGTERM, SIGHUP or SIGXCPU ends "
+    "the\n"
+    "rendering, if the process is killed, or if FILE cannot be written. --resume continues with it; pscn merge and "
+    "viewers\n"
+    "can read it. It is removed when FILE is complete.\n"
     "\n"
-    "--frames 1-24 -o NAME.png writes NAME01.png to NAME24.png, with --resume those that are missing. A frame of its\n"
-    "own, for a farm: --clock X --declare frame_number=K -o NAME07.png.\n"
+    "--frames 1-24 -o NAME.png writes NAME01.png to NAME24.png, with --resume only the missing ones. A single frame, "
+    "for\n"
+    "a farm: --clock X --declare frame_number=K -o NAME07.png.\n"
     "\n"
-    "Channels (all but rgb need EXR and are stored with 32 bits; depth and all below are those of one sample, the\n"
-    "middle one, which is the pixel's centre when the number of samples is odd):\n"
+    "Channels (all but rgb need EXR and have 32 bits; from depth on they are those of one sample, the middle one, "
+    "which\n"
+    "is the pixel's centre if the number of samples is odd):\n"
     "  rgb       R G B: linear colour, the mean of the samples\n"
     "  coverage  share of the samples that hit a patch\n"
     "  depth     distance from the camera in scene units; infinity on a miss\n"
@@ -309,11 +316,11 @@ const struct command command_render = {
     "  patch     number of the patch, from 0 in the order of the scene; -1 on a miss\n"
     "  normal    normal.x normal.y normal.z: unit, facing the camera; 0 on a miss\n"
     "  status    0 miss, 1 hit, both certain; 2 miss, 3 hit, both grazing: a change of the input within rounding\n"
-    "            could turn the answer\n"
-    "  iterations, roots: of the solver, over all leaves of patches that the ray comes to\n"
-    "  residual  |P|/delta of the root that is the hit, eq 11 of the paper: accurate below 1; 0 on a miss\n"
-    "  deviation relative, of the distance from the default solver's, which is certified; 0 where both miss,\n"
-    "            infinity where one does\n",
+    "            could change the answer\n"
+    "  iterations, roots: of the solver, over all leaves on which the ray is tried\n"
+    "  residual  |P|/delta of the hit as a root, eq 11 of the paper: accurate below 1; 0 on a miss\n"
+    "  deviation relative difference of the distance from the default solver's, which is certified; 0 if both miss,\n"
+    "            infinity if one does\n",
   .options = OPTIONS,
   .run = run,
 };

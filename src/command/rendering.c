@@ -65,7 +65,8 @@ static bool keep(struct rendering *rendering)
   }
   free(bytes);
   if (status == STATUS_OK) rendering->has_part = true;
-  else command_error(rendering->command, "cannot keep what is done in '%s': %s", rendering->request->part, message);
+  else
+    command_error(rendering->command, "cannot keep the finished part in '%s': %s", rendering->request->part, message);
   return status == STATUS_OK;
 }
 
@@ -105,11 +106,11 @@ static void keep_rest(struct rendering *rendering, bool interrupted)
   if (rendering->request->part == NULL) return;
   const bool less = has_less(rendering);
   if (!(less || (done > 0 && keep(rendering))) || rendering->request->scene->quiet) return;
-  fprintf(stderr, "pscn %s: %sthe %.0f %% that %s in '", rendering->command->name, interrupted ? "interrupted; " : "",
-          floor(100 * (double)(less ? rendering->left : done) / (double)all),
-          less ? "an earlier run has done stay" : "are done are");
+  fprintf(stderr, "pscn %s: %s%.0f %% of the picture%s in '", rendering->command->name,
+          interrupted ? "interrupted; " : "", floor(100 * (double)(less ? rendering->left : done) / (double)all),
+          less ? ", rendered by an earlier run, stays" : " is kept");
   command_print(stderr, rendering->request->part);
-  fputs("', and --resume goes on from there\n", stderr);
+  fputs("'; --resume continues from there\n", stderr);
 }
 
 /* Whether the part of an earlier run belongs to this picture and piece. If not, the message says how they differ. */
@@ -171,8 +172,8 @@ static enum status check_old(const struct rendering *rendering, const char *path
   }
   if (status == STATUS_OK) return STATUS_OK;
   command_error(rendering->command,
-                "'%s', where what is done is kept, is no part of this scene: %s; remove it, or name the picture "
-                "otherwise",
+                "'%s', in which the finished part would be kept, is not a part of this scene: %s; remove it, or choose "
+                "another name for the picture",
                 path, message);
   return status == STATUS_LIMIT ? status : STATUS_FILE;
 }
@@ -193,20 +194,21 @@ static enum status resume(struct rendering *rendering)
     rendering->has_old = true;
     if (!rendering->request->scene->quiet)
       command_warning(command, "'%s' is left by an earlier run%s", path,
-                      rendering->left > 0 ? "; --resume goes on from there"
-                      : useless           ? ", cannot be gone on from, and is replaced"
-                                          : ", of another picture, which this one replaces");
+                      rendering->left > 0 ? "; --resume continues from there"
+                      : useless           ? ", cannot be continued, and is replaced"
+                                          : ", belongs to another picture, and is replaced");
     return STATUS_OK;
   }
   status = piece_read(path, true, &part, message);
   if (status != STATUS_OK) {
-    command_error(command, "cannot go on from '%s'%s: %s", path,
-                  status == STATUS_LIMIT ? "" : " (without --resume it begins anew)", message);
+    command_error(command, "cannot continue from '%s'%s: %s", path,
+                  status == STATUS_LIMIT ? "" : " (without --resume rendering starts anew)", message);
     return status;
   }
   rendering->has_part = take_part(rendering, &part, message, sizeof message);
   if (!rendering->has_part)
-    command_error(command, "'%s' is of another picture; %s. Without --resume it begins anew", path, message);
+    command_error(command, "'%s' belongs to another picture; %s. Without --resume rendering starts anew", path,
+                  message);
   piece_destroy(&part);
   return rendering->has_part ? STATUS_OK : STATUS_INPUT;
 }
@@ -259,7 +261,8 @@ static void warn_of_nothing(const struct rendering *rendering, const struct rend
       rendering->request->pieces != 0)
     return;
   if (!stats->seen)
-    command_warning(rendering->command, "no ray hits a patch: the camera looks past them, or they are too small");
+    command_warning(rendering->command,
+                    "no ray hits a patch: the camera points elsewhere, or the patches are too small");
   else if (!stats->lit)
     command_warning(rendering->command, "all patches are black: no light reaches them, or they have no pigment");
 }
@@ -342,7 +345,7 @@ static enum status write_results(struct rendering *rendering)
   char message[IMAGE_MESSAGE_SIZE];
   enum status status = encode(rendering, &bytes, &size, message);
   if (status != STATUS_OK) {
-    if (status != STATUS_INTERRUPTED) command_error(command, "cannot make '%s': %s", request->output, message);
+    if (status != STATUS_INTERRUPTED) command_error(command, "cannot create '%s': %s", request->output, message);
     return status;
   }
   rendering->report->write = seconds_since(start);

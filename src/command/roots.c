@@ -38,10 +38,10 @@ struct request {
 
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
-  SCENE_SOLVER_OPTION("what may follow 'solver' in a scene; default aberth"),
-  SCENE_TOLERANCE_OPTION("instead of the solver's tolerance"),
+  SCENE_SOLVER_OPTION("text that may follow 'solver' in a scene; default aberth"),
+  SCENE_TOLERANCE_OPTION("replaces the solver's tolerance"),
   COMMAND_OPTION("format", 0, 0, "plain: pairs re im (default); table, json: with radius, status, eq 11", "FORMAT"),
-  COMMAND_TRUE("iterates", 0, iterates, "instead of the roots the values on the way to them, step by step"),
+  COMMAND_TRUE("iterates", 0, iterates, "all values of the iteration, step by step, instead of the roots"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the roots", "FILE"),
   COMMAND_TRUE("quiet", 'q', quiet, "no summary on a terminal"),
   COMMAND_OPTIONS_END,
@@ -58,7 +58,7 @@ static enum status take_option(const struct command *command, void *context, int
       return STATUS_OK;
     }
   }
-  return command_usage(command, "'%s' is no format, only plain, table or json", argument);
+  return command_usage(command, "'%s' is not a format; use plain, table or json", argument);
 }
 
 struct session {
@@ -88,10 +88,9 @@ static struct stream_fault parse_line(const struct stream_line *line, double out
     count++;
   }
   if (found < 0) return fault;
-  if (found > 0)
-    return (struct stream_fault){"a polynomial has at most 65 coefficients, and here is more", fault.begin, fault.end};
+  if (found > 0) return (struct stream_fault){"a polynomial has at most 65 coefficients", fault.begin, fault.end};
   if (count < 2)
-    return (struct stream_fault){"a polynomial is at least two coefficients, from the highest power to the constant",
+    return (struct stream_fault){"a polynomial has at least two coefficients, from the highest power to the constant",
                                  fault.begin, fault.end};
   bool zero = true;
   for (int k = 0; k < count; k++) {
@@ -222,12 +221,11 @@ static void tell_unknown(struct session *session, const struct answer *answer)
   fflush(stdout);
   if (unknown > 0) {
     command_print(stderr, session->name);
-    fprintf(stderr, ":%zu: error: of %d of the values printed it is not known how near they are to a root\n",
-            answer->line, unknown);
+    fprintf(stderr, ":%zu: error: %d of the printed values may be far from any root\n", answer->line, unknown);
   }
   if (answer->roots.missing > 0) {
     command_print(stderr, session->name);
-    fprintf(stderr, ":%zu: error: %d of the roots missing: not found, or not told from infinity\n", answer->line,
+    fprintf(stderr, ":%zu: error: %d of the roots missing: not found, or too large\n", answer->line,
             answer->roots.missing);
   }
 }
@@ -370,7 +368,7 @@ static enum status roots(const struct command *command, const struct request *re
     .name = stream_name(request->path), .format = request->format, .judged = summary || request->stats != NULL};
   const struct stream_reader reader = {.take = take, .answer = answered, .context = &session, .path = request->path};
   if (request->iterates && request->format != FORMAT_PLAIN)
-    return command_usage(command, "--iterates has a format of its own");
+    return command_usage(command, "--iterates has its own format");
   const char *input = request->path == NULL || output_is_standard(request->path) ? "/dev/stdin" : request->path;
   enum status status = output_spare_input(command, request->stats, input);
   if (status == STATUS_OK) status = output_probe(command, request->stats);
@@ -381,7 +379,7 @@ static enum status roots(const struct command *command, const struct request *re
     status = report_write(command, statistics(&session), request->stats);
   if (status == STATUS_OK && summary) print_summary(&session);
   if (session.doubtful > MOST_TOLD)
-    command_error(command, "and %zu more lines with roots that are not known", session.doubtful - MOST_TOLD);
+    command_error(command, "and %zu more lines with unknown roots", session.doubtful - MOST_TOLD);
   return status == STATUS_OK && session.doubtful > 0 ? STATUS_DIFFERENT : status;
 }
 
@@ -402,24 +400,25 @@ static enum status run(const struct command *command, int argc, const char **arg
 const struct command command_roots = {
   .name = "roots",
   .arguments = "[FILE]",
-  .summary = "Reads polynomials and answers their roots",
+  .summary = "Reads polynomials and prints their roots",
   .description =
-    "FILE, or standard input, has one polynomial a line: its real coefficients from the highest power to the\n"
-    "constant, with blanks or commas between them, of degree 1 to 64; # begins a comment. Standard output has one "
-    "line\n"
-    "for each, in order: 're im' pairs, sorted by real part. Multiple roots are there as often as they count. A bad\n"
-    "line ends the run with its number, after the answers to the lines before it.\n"
-    "Where a value is not known to be near a root, or a root is missing, standard error says so; exit code 1. Other\n"
-    "formats than plain say so themselves.\n"
+    "FILE, or standard input, has one polynomial a line: its real coefficients from the highest power to the "
+    "constant,\n"
+    "with blanks or commas between them, of degree 1 to 64; # begins a comment. Standard output has one line for each, "
+    "in\n"
+    "order: 're im' pairs, sorted by real part. Multiple roots are repeated. A bad line ends the run with its number,\n"
+    "after the answers to the lines before it. If a value is not known to be near a root, or a root is missing, "
+    "standard\n"
+    "error says so, and the exit code is 1; the formats table and json show it themselves, and end with 0.\n"
     "\n"
-    "The solver works on the coefficients as they are (basis power), unless --solver says 'basis bernstein': then the\n"
-    "same polynomial is brought into scaled Bernstein form on [0,1] first. 'bernstein' finds the real roots in [0,1],\n"
-    "and answers a multiple one within it once or twice.\n"
-    "With 'start previous' each polynomial starts from the roots of the one before.\n"
+    "The solver works on the coefficients as they are (basis power). With 'basis bernstein' in --solver the polynomial "
+    "is\n"
+    "first converted to scaled Bernstein form on [0,1]. The solver 'bernstein' finds the real roots in [0,1], "
+    "multiple\n"
+    "ones once or twice. With 'start previous' each polynomial starts from the roots of the one before.\n"
     "\n"
-    "--iterates: a row for every value that the solver's iteration passes, in the order in which it comes to be:\n"
-    "number of the line, step (0: the start), number of the root as the solver counts them, re, im. Nothing is said\n"
-    "of roots that need no iteration. For plots of the ways to the roots.\n",
+    "--iterates: a row for every value of the solver's iteration, in order: number of the line, step (0: the start),\n"
+    "number of the root as the solver counts them, re, im. Roots that need no iteration have no rows.\n",
   .options = OPTIONS,
   .run = run,
 };

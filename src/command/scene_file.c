@@ -37,11 +37,11 @@ static enum status take_number(const struct command *command, struct scene_reque
   size_t used = 0;
   if (argument[length] == '\0' || number_read(value, strlen(value), &number.value, &used) != NUMBER_FINITE ||
       value[used] != '\0')
-    return command_usage(command, "'%s' is no NAME=NUMBER", argument);
+    return command_usage(command, "'%s' is not NAME=NUMBER", argument);
   if (!number_in_range(&number.value)) return command_usage(command, "'%s': the number is larger than 1e100", argument);
   if (length == 5 && strncmp(argument, "clock", length) == 0) return command_usage(command, "--clock X sets the clock");
   if (!language_is_name(argument, length))
-    return command_usage(command, "'%.*s' is no name that can be declared", (int)length, argument);
+    return command_usage(command, "'%.*s' is not a name that can be declared", (int)length, argument);
   if (request->number_count == SCENE_MOST_NUMBERS)
     return command_usage(command, "more than %d numbers are declared", SCENE_MOST_NUMBERS);
   request->numbers[request->number_count++] = number;
@@ -54,7 +54,7 @@ enum status scene_request_take(const struct command *command, void *scene_reques
   switch (val) {
   case OPTION_SIZE:
     if (!value_size(argument, MAX_SIDE, &request->width, &request->height))
-      return command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
+      return command_usage(command, "'%s' is not a size WxH of 1 to %d pixels each", argument, MAX_SIDE);
     break;
   case OPTION_DECLARE: return take_number(command, request, argument);
   case OPTION_INCLUDE:
@@ -64,7 +64,7 @@ enum status scene_request_take(const struct command *command, void *scene_reques
     break;
   default:
     if (!value_bytes(argument, &request->max_memory))
-      return command_usage(command, "'%s' is no size of memory, such as 500M or 2G", argument);
+      return command_usage(command, "'%s' is not a size of memory, such as 500M or 2G", argument);
     break;
   }
   return STATUS_OK;
@@ -187,8 +187,9 @@ bool scene_file_warn(const struct command *command, const struct scene *scene)
   for (size_t k = 0; k < sizeof missing / sizeof *missing; k++)
     if (missing[k]) command_warning(command, "the scene has %s", what[k]);
   if (scene->gamma_assumed)
-    command_warning(command, "the scene has no #version; as in POV-Ray, its colours are then sRGB's. Begin with "
-                             "#version 3.7; for linear colours");
+    command_warning(
+      command, "the scene has no #version, so its colours are sRGB's, as in POV-Ray; begin with '#version 3.7;' for "
+               "linear colours");
   return missing[0] || missing[1] || missing[2];
 }
 

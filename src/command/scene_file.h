@@ -48,17 +48,19 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_
 #define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
 #define SCENE_SOLVER_OPTION(text) COMMAND_TEXT("solver", 0, scene.solver_text, text, "TEXT")
 #define SCENE_TOLERANCE_OPTION(text) COMMAND_POSITIVE("tolerance", scene.tolerance, "tolerance", text, "E")
-#define SCENE_READING_OPTIONS                                                                                         \
-  COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, "that the scene may take; default a quarter of all, at most 8G", \
-                 "SIZE"),                                                                                             \
-    COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"),      \
-    COMMAND_TRUE("lenient", 0, scene.lenient, "leave out, with warnings, what pscn does not support"),                \
-    COMMAND_NUMBER("clock", scene.clock, "the value of clock in the scene", "X"),                                     \
-    COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X"),                 \
-    COMMAND_TRUE("untrusted", 0, scene.untrusted, "the scene is a stranger's: it reads, takes and does little")
-#define SCENE_OPTIONS                                                    \
-  SCENE_SOLVER_OPTION("instead of every solver statement of the scene"), \
-    SCENE_TOLERANCE_OPTION("instead of every solver's tolerance"), SCENE_READING_OPTIONS
+#define SCENE_READING_OPTIONS                                                                                      \
+  COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, "memory for the scene; default a quarter of all, at most 8G", \
+                 "SIZE"),                                                                                          \
+    COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "folder in which included files are sought; may be repeated",   \
+                   "DIR"),                                                                                         \
+    COMMAND_TRUE("lenient", 0, scene.lenient, "leave out unsupported words, with warnings"),                       \
+    COMMAND_NUMBER("clock", scene.clock, "the value of clock in the scene", "X"),                                  \
+    COMMAND_OPTION("declare", 0, OPTION_DECLARE, "declare a number before the scene is read; may be repeated",     \
+                   "NAME=X"),                                                                                      \
+    COMMAND_TRUE("untrusted", 0, scene.untrusted, "for a stranger's scene: limits of files, memory, size, time")
+#define SCENE_OPTIONS                                                 \
+  SCENE_SOLVER_OPTION("replaces all solver statements of the scene"), \
+    SCENE_TOLERANCE_OPTION("replaces the tolerance of all solvers"), SCENE_READING_OPTIONS
 enum status scene_request_take(const struct command *command, void *scene_request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 

@@ -99,9 +99,10 @@ int stream_number(const struct stream_line *line, size_t *at, double *out_value,
   *out_fault = (struct stream_fault){NULL, *at, end};
   if (*at == line->length && !comma) return 0;
   const enum number_kind kind = number_read(line->text + *at, end - *at, out_value, &used);
-  if (end == *at) out_fault->text = "a number is missing here: a comma stands between two";
+  if (end == *at) out_fault->text = "a number is missing here: a comma stands between two numbers";
   else if (kind == NUMBER_NONE || (kind == NUMBER_FINITE && *at + used != end))
-    out_fault->text = "this is no number: a line has real numbers such as -2.5e3, with blanks or commas between them";
+    out_fault->text =
+      "this is not a number: a line has real numbers such as -2.5e3, with blanks or commas between them";
   else if (kind == NUMBER_OVERFLOW) out_fault->text = "the number is too large";
   else return 1;
   return -1;

@@ -34,8 +34,8 @@ static const struct command_option OPTIONS[] = {
   SCENE_OPTIONS,
   COMMAND_TRUE("binary", 0, binary, "little-endian doubles instead of text"),
   COMMAND_TRUE("all", 0, all, "all hits of each ray: a line with their number, then a line for each"),
-  COMMAND_TRUE("certainty", 0, certainty, "whether each answer is 'certain' or 'grazing'"),
-  COMMAND_TRUE("explain", 0, explain, "instead of an answer the story of how it came to be"),
+  COMMAND_TRUE("certainty", 0, certainty, "add 'certain' or 'grazing' to each answer"),
+  COMMAND_TRUE("explain", 0, explain, "how each answer is found, instead of the answer"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the hits", "FILE"),
   COMMAND_TRUE("quiet", 'q', scene.quiet, "no summary on a terminal"),
   COMMAND_OPTIONS_END,
@@ -166,14 +166,14 @@ static struct stream_fault parse_line(const struct stream_line *line, struct ray
     const int found = stream_number(line, &at, &value[k], &end, &fault);
     if (found < 0) return fault;
     if (found > 0 && !number_in_range(&value[k]))
-      return (struct stream_fault){"a ray's numbers are 1e100 at most", fault.begin, fault.end};
-    if (found == 0) return (struct stream_fault){"a ray is six numbers: ox oy oz dx dy dz", fault.begin, fault.end};
+      return (struct stream_fault){"a ray's numbers are at most 1e100", fault.begin, fault.end};
+    if (found == 0) return (struct stream_fault){"a ray has six numbers: ox oy oz dx dy dz", fault.begin, fault.end};
     direction = k == 3 ? at : direction;
     at = end;
   }
   const size_t last = end;
   if (stream_number(line, &at, &value[RAY_VALUES], &end, &fault) != 0)
-    return (struct stream_fault){"a ray is six numbers, and here is more", fault.begin, fault.end};
+    return (struct stream_fault){"a ray has only six numbers", fault.begin, fault.end};
   return (struct stream_fault){make_ray(value, out) ? NULL : DIRECTION_IS_ZERO, direction, last};
 }
 
@@ -187,7 +187,7 @@ static struct stream_fault parse_record(const struct stream_line *record, struct
     uint64_t bits = 0;
     for (int b = 7; b >= 0; b--) bits = bits << 8 | (unsigned char)record->text[8 * k + b];
     memcpy(&value[k], &bits, sizeof bits);
-    if (!number_in_range(&value[k])) return (struct stream_fault){.text = "a ray's numbers are 1e100 at most"};
+    if (!number_in_range(&value[k])) return (struct stream_fault){.text = "a ray's numbers are at most 1e100"};
   }
   return (struct stream_fault){.text = make_ray(value, out) ? NULL : DIRECTION_IS_ZERO};
 }
@@ -205,12 +205,12 @@ static struct stream_fault take(void *context, const struct stream_line *line)
 static enum status check_request(const struct command *command, struct request *request)
 {
   if (request->explain && request->all)
-    return command_usage(command, "a story is the nearest hit's: --explain and --all do not go together");
+    return command_usage(command, "--explain and --all exclude each other: an explanation is of the nearest hit");
   if (request->explain && request->binary)
-    return command_usage(command, "a story is text: --explain and --binary do not go together");
+    return command_usage(command, "--explain and --binary exclude each other: an explanation is text");
   const bool standard = request->rays == NULL || output_is_standard(request->rays);
   if (standard && output_is_standard(request->scene.path))
-    return command_usage(command, "the rays come from standard input, the scene from a file");
+    return command_usage(command, "scene and rays cannot both come from standard input");
   enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
   if (status == STATUS_OK)
     status = output_spare_input(command, request->stats, standard ? "/dev/stdin" : request->rays);
@@ -275,7 +275,7 @@ static enum status run(const struct command *command, int argc, const char **arg
 const struct command command_trace = {
   .name = "trace",
   .arguments = "SCENE [FILE]",
-  .summary = "Reads rays and answers where each hits the scene",
+  .summary = "Reads rays and prints where each hits the scene",
   .description =
     "FILE, or standard input, has one ray a line, 'ox oy oz dx dy dz', with blanks or commas between the numbers; the\n"
     "direction may have any length, and # begins a comment. Standard output has one line for each ray, in order:\n"
@@ -286,17 +286,21 @@ const struct command command_trace = {
     "--binary: a ray is six little-endian doubles, an answer seven, T U V PATCH NX NY NZ; a miss has T infinite,\n"
     "PATCH -1 and zeros.\n"
     "\n"
-    "--certainty: each line ends with 'certain' where the answer is proven, or with 'grazing' where a change of the\n"
-    "input within rounding could turn it; a binary answer has an eighth number, 1 or 0.\n"
+    "--certainty: each line ends with 'certain' if the answer is proven, or with 'grazing' if a change of the input "
+    "within\n"
+    "rounding could change it; a binary answer has an eighth number, 1 or 0.\n"
     "\n"
     "--all: all hits of a ray. A line 'N certain' or 'N grazing', then N lines 'hit ...' as above, in order of T.\n"
-    "'certain' means that the number is proven: a ray starts inside a closed surface where it is odd. In binary, N\n"
-    "and 1 or 0 as doubles, then N answers.\n"
+    "'certain' means that the number is proven: if it is odd the ray starts inside a closed surface. In binary, N and "
+    "1\n"
+    "or 0 as doubles, then N answers.\n"
     "\n"
-    "--explain: for each ray the leaves of patches that it came to, in order; of each its equations a and b, their\n"
-    "resultant r in the format that 'pscn roots' reads (in powers of x = u/(1-u) where the basis is bernstein), the\n"
-    "solver's roots, what became of each, the nearest hit so far with its certificate; and the answer. To ask another\n"
-    "solver: pscn trace SCENE --explain <ray | sed -n 's/^  r: //p' | pscn roots --format table\n",
+    "--explain: for each ray the leaves on which it is tried, in order, each with its equations a and b, their "
+    "resultant r\n"
+    "in the format that 'pscn roots' reads (in powers of x = u/(1-u) if the basis is bernstein), the solver's roots, "
+    "what\n"
+    "became of each, and the nearest hit so far with its certificate; then the answer. To try another solver:\n"
+    "pscn trace SCENE --explain <ray | sed -n 's/^  r: //p' | pscn roots --format table\n",
   .options = OPTIONS,
   .run = run,
 };

@@ -147,7 +147,7 @@ enum status image_encode(const struct image *image, const struct image_encoding 
   *out_bytes = NULL;
   *out_size = 0;
   if (image->channel_count == 0 || image->channel_count > FORMATS[encoding->format].max_channels) {
-    snprintf(message, IMAGE_MESSAGE_SIZE, "the format can not hold these channels");
+    snprintf(message, IMAGE_MESSAGE_SIZE, "the format cannot hold these channels");
     return STATUS_FILE;
   }
   if (encoding->format == IMAGE_PNG) return png_file_encode(image, encoding, out_bytes, out_size, message);
@@ -188,7 +188,7 @@ enum status image_read_areas(const char *path, const struct image_wanted *wanted
   const int file = input_open(path, INPUT_FILE, &reason);
   const char *format = file < 0 ? NULL : format_of_content(file);
   if (format == NULL) {
-    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", file < 0 ? reason : "it is no PNG, EXR, TIFF or JPEG");
+    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", file < 0 ? reason : "it is not a PNG, EXR, TIFF or JPEG");
     return STATUS_FILE;
   }
   const struct image_module *module;

@@ -118,7 +118,7 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   OIIO::Filesystem::IOVecOutput proxy(file); /* outlives the output, whose destructor still writes into it */
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("exr");
   if (!output) return "OpenImageIO: " + OIIO::geterror();
-  if (!output->supports("ioproxy")) return "this OpenImageIO can not write the format to memory";
+  if (!output->supports("ioproxy")) return "this OpenImageIO cannot write the format to memory";
   if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
   /* The name only selects the format; the bytes go to the proxy. */
   if (output->open("memory.exr", spec)) result = write_rows(*output, spec, picture, encoding);

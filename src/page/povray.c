@@ -139,7 +139,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
     (void)listener_fail(povray->listener, status, "cannot run '%s': %s", povray->program, strerror(out->reason));
   if (povray->missing)
     listener_tell(povray->listener, TOLD_DETAIL,
-                  "POV-Ray 3.7 is what scenes are checked against; on Debian 'apt-get install povray' installs it.");
+                  "pscn check needs POV-Ray 3.7; on Debian 'apt-get install povray' installs it.");
   if (status != STATUS_OK) return status;
   struct text_buffer log = read_log(povray);
   const bool failed = log.failed;
@@ -375,7 +375,7 @@ static enum status read_answers(const struct povray *povray, size_t count, doubl
   }
   free(text);
   return read == count ? STATUS_OK
-                       : listener_fail(povray->listener, STATUS_INPUT, "POV-Ray's trace() left answers out");
+                       : listener_fail(povray->listener, STATUS_INPUT, "POV-Ray's trace() printed too few distances");
 }
 
 enum status povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray rays[],

@@ -13,8 +13,8 @@ static const struct channel_traits TRAITS[CHANNEL_KINDS] = {
   [CHANNEL_NORMAL] =
     {"normal", "unit normal facing the camera; a miss: 0", 3, {"normal.x", "normal.y", "normal.z"}, true},
   [CHANNEL_STATUS] = {"status", "0 miss, 1 hit, both certain; 2 miss, 3 hit, both grazing", 1, {"status"}, true},
-  [CHANNEL_ITERATIONS] = {"iterations", "of the solver, for all roots of all leaves", 1, {"iterations"}, true},
-  [CHANNEL_ROOTS] = {"roots", "that the solver found, of all leaves", 1, {"roots"}, true},
+  [CHANNEL_ITERATIONS] = {"iterations", "steps of the solver for all roots of all leaves", 1, {"iterations"}, true},
+  [CHANNEL_ROOTS] = {"roots", "number of roots that the solver found on all leaves", 1, {"roots"}, true},
   [CHANNEL_RESIDUAL] = {"residual", "|P|/delta of the root that is the hit (eq 11); a miss: 0", 1, {"residual"}, true},
   [CHANNEL_DEVIATION] = {"deviation", "relative, from the certified distance", 1, {"deviation"}, true},
 };

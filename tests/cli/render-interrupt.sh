@@ -18,6 +18,7 @@ ended() { # SCENE: TERM after a second, and KILL after another minute
   echo "exit $?"
 }
 ended "$scene"
+rm -f slow.png.part.exr # if a row was done by then
 {
   sed -n '/^camera/p;/^light/p;/^bicubic/,/^}/p' "$scene" | sed '/^}/q' | sed 's/^bicubic/#declare A0 = bicubic/'
   for n in 1 2 3 4; do echo "#declare A$n = union { $(for k in {1..10}; do echo "object { A$((n - 1)) }"; done) }"; done

@@ -16,7 +16,7 @@ end() {
     [ $status = 0 ] || break
   done
   echo "exit $status"
-  [ $# -gt 0 ] || sed -n '/interrupted/s/the [0-9]* %/so many %/p' said # else it may end before it begins
+  [ $# -gt 0 ] || sed -n '/interrupted/s/[0-9]* % of/so many % of/p' said # else it may end before it begins
   rm -f said
   [ -e $file ] && echo "$file is there"
 }
@@ -106,7 +106,7 @@ for attempt in {1..20}; do
   kill -INT $! 2>/dev/null
   wait $! || break
 done
-sed -n 's/the [0-9]* %/so many %/p; /earlier/p' said
+sed -n 's/[0-9]* % of/so many % of/p; /earlier/p' said
 resumed cut.exr
 rm all.exr said
 # --checkpoint 0: an existing file stays unchanged while the picture is rendered.

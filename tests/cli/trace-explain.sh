@@ -1,17 +1,17 @@
-# The story of a ray. Its last lines are the answers. Its r can be given to pscn roots, and the root taken is among the
+# The explanation of a ray. Its last lines are the answers. Its r can be given to pscn roots, and the root taken is among the
 # answers.
 printf '%s\n' '0.3 0.2 -4 0 0.1 1' '0.3 0.2 4 0.1 0 -1' '9 0 -4 0 0 1' '-0.4 0.1 -9 0.02 0 2' >rays
 for scene in "$SCENES"/flat.pscn "$SCENES"/bent.pscn; do
   for solver in bernstein newton laguerre aberth durand_kerner 'newton { form paper }' 'aberth { form paper }'; do
-    pscn trace "$scene" --solver "$solver" --explain <rays >story
+    pscn trace "$scene" --solver "$solver" --explain <rays >explained
     pscn trace "$scene" --solver "$solver" --certainty <rays >answers
-    sed -n 's/^answer: //p' story | cmp - answers && echo "the answers are the same"
-    sed -n 's/^  r: //p' story >polynomials
+    sed -n 's/^answer: //p' explained | cmp - answers && echo "the answers are the same"
+    sed -n 's/^  r: //p ' explained >polynomials
     pscn roots --format table --solver 'aberth { form paper }' <polynomials >roots
     LC_ALL=C awk -v scene="${scene##*/}" -v solver="$solver" '
       function abs(x) { return x < 0 ? -x : x }
       FNR == 1 && FNR != NR { next }
-      FILENAME == "story" {
+      FILENAME == "explained" {
         power = /^  r\([uv]\)/ ? 1 : /^  r, / ? 0 : power
         if ($1 == "r:") polynomials++
         if (/, T = /) { sub(/,/, "", $3); real[++reals] = $3; of[reals] = polynomials }
@@ -31,10 +31,10 @@ for scene in "$SCENES"/flat.pscn "$SCENES"/bent.pscn; do
         }
         print scene ", " solver ": " (reals > 0 ? "points" : "no points") ", " lost + 0 " of them no root of r; " \
           (certificates > 0 ? "certificates" : "no certificate")
-      }' story roots
+      }' explained roots
   done
 done
-# Each of the story's phrases occurs for some ray: beside poles, along borders, past patches that wave.
+# Each of the explanation's phrases occurs for some ray: beside poles, along borders, past patches that wave.
 printf '%s\n' '0 9 0 0 -1 0' '1.48 -2.51 2.58 -0.72 0.55 -0.09' '0 1 -8 0 0 1' '0 0 -9 0 0 1' '0.01 9 0.02 0 -1 0' \
   '-2.83 -0.21 2.66 0.3 0.8 -0.77' '0 -0.97 -2.47 -0.46 0.56 0.73' >rays
 for k in $(seq 40); do echo "$((k % 7 - 3)).1 $((k % 5 - 2)).2 -3 0.0$((k % 9)) -0.$((k % 8)) 1"; done >>rays
@@ -42,10 +42,10 @@ for scene in teapot dome wild; do
   for solver in bernstein 'aberth { split 1 }' 'newton { form paper }' 'laguerre { polish off }'; do
     pscn trace "$PSCN_SOURCE_DIR/scenes/$scene.pscn" --solver "$solver" --explain <rays
   done
-done >story
-pscn trace "$SCENES/tangled.pscn" --solver 'aberth { split 1 }' --explain <"$SCENES/tangled.rays" >>story
+done >explained
+pscn trace "$SCENES/tangled.pscn" --solver 'aberth { split 1 }' --explain <"$SCENES/tangled.rays" >>explained
 while read -r words; do
-  grep -q -e "$words" story || echo "nobody says: $words"
+  grep -q -e "$words" explained || echo "never printed: $words"
 done <<'END'
 degree . in v and . in u
 refused: not real
@@ -55,10 +55,10 @@ refused: [uv] = .* is outside
 does not solve eq 3
 missed, proven: a, b or
 missed, proven: the coefficients of r
-came to its bilinear part
-nothing taken: not nearer
-nothing taken: no root
-left to the last resort: what
+last stage: its bilinear part
+nothing accepted: not nearer
+nothing accepted: no root
+left to the last resort: double
 last resort: [1-9]
 certificate: none
 certificate: a and b
@@ -66,7 +66,7 @@ answer: hit .* grazing
 answer: miss certain
 ray 47: from
 roots by laguerre$
-roots by aberth, asked for this story
+roots by aberth, found for this explanation
 the nearest so far; a part is left to the last resort
 = [^ ]* [+-][0-9.e-]* i, [0-9]* iterations, .* refused: not real
 END
@@ -76,9 +76,9 @@ awk '
   /^candidate/ { candidates++ }
   /left to the last resort/ { left++ }
   /^last resort:/ { several += left > 1; wrong += $3 != left || $5 != candidates }
-  END { print (several > 0 ? "several" : "never several") ", " wrong + 0 " wrong" }' story
-grep ' [+-]0 i' story # no real root is told as a complex one
-# One whole story, on a plane patch, where all numbers are exact.
+  END { print (several > 0 ? "several" : "never several") ", " wrong + 0 " wrong" }' explained
+grep ' [+-]0 i' explained # no real root is printed as a complex one
+# One whole explanation, on a plane patch, where all numbers are exact.
 printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'aberth { split 1 }' | grep -v ' root\|= '
 # From so far away that double precision tells nothing.
 printf '%s\n' '-1e31 -1e31 -1e31 1 1 1' | pscn trace "$SCENES/flat.pscn" --explain

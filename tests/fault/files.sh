@@ -157,7 +157,7 @@ if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   kilobytes=440000
   until (ulimit -v $kilobytes && "$PSCN" render "$scene" $small -o b.exr) >"$said" 2>&1; do kilobytes=$((kilobytes + 20000)); done
   (ulimit -v $((kilobytes + 300000)) && "$PSCN" render "$scene" $large -o large.exr) >"$said" 2>&1
-  grep -q -e '--resume goes on' "$said" || wrong "a part that there is no room for is called useless"
+  grep -q -e '--resume continues' "$said" || wrong "a part that there is no room for is called useless"
   rm -f b.exr large.exr*
   # Little memory for data, few threads, little stack: too little for OpenImageIO, or for a hard ray (a sanitizer needs
   # more, as above).

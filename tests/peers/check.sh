@@ -145,7 +145,7 @@ names() {
 
   # A pipe is read once. A name that is not UTF-8 is shown as UTF-8. Steps of an earlier check are removed.
   expect 0 "$PSCN" check <(cat "$name/plain.inc") --size 9x9 --steps 1 --grid 0 -o again
-  grep -q 'no file that can be read again' again/check.html || fail "the page does not say that POV-Ray read the dump"
+  grep -q 'not a file that can be read again' again/check.html || fail "the page does not say that POV-Ray read the dump"
   odd=$(printf 'odd\xff\x1b[31m<b>')
   cp "$name/plain.inc" "$odd.pscn"
   expect 0 "$PSCN" check "$odd.pscn" --size 9x9 --steps 0 --grid 0 -o again

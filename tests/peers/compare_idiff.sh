@@ -71,7 +71,7 @@ oiiotool a.png -o a.ppm
 check a.tif b.png 0.02
 check a.jpg b.png 0.02
 "$PSCN" compare a.ppm a.ppm 2>ours.err && { echo "a.ppm was read"; failed=1; }
-grep -q "'a.ppm': it is no PNG, EXR, TIFF or JPEG" ours.err || { echo "a.ppm: $(cat ours.err)"; failed=1; }
+grep -q "'a.ppm': it is not a PNG, EXR, TIFF or JPEG" ours.err || { echo "a.ppm: $(cat ours.err)"; failed=1; }
 # verdict CODE A B: pscn's answer. idiff's is named where it differs.
 verdict() {
   local code=0

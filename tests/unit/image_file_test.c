@@ -331,7 +331,7 @@ TEST(png_refuses_five_channels_and_none)
   assert_true(message[0] != '\0');
   image.channel_count = 0;
   assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_FILE);
-  assert_string_equal(message, "the format can not hold these channels");
+  assert_string_equal(message, "the format cannot hold these channels");
   image_destroy(&image);
 }
 
@@ -416,7 +416,7 @@ WITH_FILE(unreadable_files_are_told)
   }
   put_text(path, "\xff\xd8\xff"); /* the beginning of a JPEG, and no more */
   assert_int_equal(image_read(path, &image, message), STATUS_FILE);
-  assert_string_equal(message, "it is no PNG, EXR, TIFF or JPEG");
+  assert_string_equal(message, "it is not a PNG, EXR, TIFF or JPEG");
 }
 
 /* A file of 65 bytes that asks PNG's reader for 60000 x 60000 pixels. */
