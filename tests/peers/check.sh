@@ -73,7 +73,7 @@ answers() {
   expect 0 "$PSCN" check "$scene" --size 120x90 --steps 0 --grid 0 -o dumped \
     --failpercent 100 --failpsnr 0 --failmask 100 --dump
   cmp -s dumped/povray.png one-check/povray.png || fail "the dump gives another picture"
-  grep -q 'of that text, too: --dump' dumped/check.html || fail "the page does not say what POV-Ray read"
+  grep -q 'that text for the first row, too: --dump' dumped/check.html || fail "the page does not say what POV-Ray read"
   # It finds declared names and included files as the scene does.
   given=(--declare Beside=0.125 --clock 0.25 -I "scenes and more/beside" --size 24x18 --steps 0 --grid 0
     --failpercent 100 --failpsnr 0 --failmask 100)
