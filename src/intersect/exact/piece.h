@@ -56,12 +56,16 @@ bool piece_room(struct piece *out, struct pool *pool);
 void piece_measure(struct piece *piece);
 
 /* Halves the piece across u (axis 0) or v (axis 1); out[0], the first in the pool, is the half of smaller parameters or
- * the other one. False if there was no room; nothing is then taken from the pool. out lacks what piece_measure sets. */
+ * the other one. False if there was no room; nothing is then taken from the pool. */
 bool piece_halve(const struct piece *piece, int axis, bool high_first, struct pool *pool, struct piece out[2]);
 
 /* The part [from, to] / 2^log2 of the piece along that axis, from < to <= 2^log2, log2 at most 60. */
 bool piece_part(const struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool,
                 struct piece *out);
+
+/* The part that holds the box [box[0][0], box[0][1]] x [box[1][0], box[1][1]], as far as that lies in the piece. It is
+ * at most a quarter longer, or as short as 2^-39. */
+bool piece_box(const struct piece *piece, const double box[2][2], struct pool *pool, struct piece *out);
 
 /* Whether a or b keeps one sign on the piece: then it has no root. */
 bool piece_misses(const struct piece *piece);
@@ -82,6 +86,7 @@ enum piece_verdict {
 struct piece_root {
   double at[2], radius;
   int turn; /* sign of the determinant of the Jacobian of (a,b) by (u,v), the same on the piece and its margin */
+  double box[2][2]; /* of an open piece: no root is outside of [box[k][0], box[k][1]] in u, v; always set */
 };
 
 /* Decides the piece by two combinations of a and b that aim along its parameters: the rows of the adjugate of the
@@ -101,6 +106,9 @@ bool piece_depth_grows(const struct piece *piece, int axis);
 /* Whether w changes all along every curve on which a (b, if a is 0 all over) is zero: their Jacobian is not singular. */
 bool piece_depth_turns(const struct piece *piece, struct pool *pool);
 
+/* The net of w less its first coefficient, `limbs` long each, which takes two bits more than w. */
+void piece_depth_changes(const struct piece *piece, int limbs, limb *out);
+
 /* Bounds of w on the piece. */
 void piece_depths(const struct piece *piece, double *least, double *most);
 
@@ -116,6 +124,10 @@ limb *piece_combine(const struct piece *piece, struct weight p, struct weight q,
 /* The net of p[0] a + p[1] b, where the weights are of `value`, formed exactly, as by net_round. False if there is no
  * room. */
 bool piece_weigh(const struct piece *piece, const double p[2], struct pool *pool, double out[4][4]);
+
+/* The leading bits of the largest coefficient that tests look at, and the bits below, of so many. */
+enum { NET_WINDOW = 62 };
+static inline int net_shift(int bits) { return bits > NET_WINDOW ? bits - NET_WINDOW : 0; }
 
 /* A net of 16 such integers as doubles: times a power of two, so that the largest is 1/2 to 1, off by PIECE_ERROR. A
  * coefficient below 0 stays so, and one that is 0 or less does not become positive. Returns the bits of the largest. */

@@ -19,8 +19,8 @@
 /* A piece that waits is a sibling of one that is being halved. */
 enum { WAITING_MAX = 2 * 64 + 16 };
 
-/* The most zooms into a root, each of up to 2^ZOOM_BITS; what is then not known is undecided. Two make a root sharp. */
-enum { ZOOMS = 6, ZOOM_BITS = 40 };
+/* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
+enum { ZOOMS = 6 };
 #define SHARP 0x1p-95
 
 struct waiting {
@@ -76,15 +76,9 @@ struct placing {
 
 static bool zoom(const struct piece *piece, const struct piece_root *root, struct pool *pool, struct piece *out)
 {
-  struct piece half;
-  for (int axis = 0; axis < 2; axis++) {
-    int exponent;
-    (void)frexp(root->radius, &exponent);
-    const int log2 = -exponent - 4 < 2 ? 2 : -exponent - 4 > ZOOM_BITS ? ZOOM_BITS : -exponent - 4;
-    const double cells = ldexp(1, log2), at = real_clamp(floor(root->at[axis] * cells) - 1, 0, cells - 3);
-    if (!piece_part(axis ? &half : piece, axis, (limb)at, (limb)at + 3, log2, pool, axis ? out : &half)) return false;
-  }
-  return true;
+  double box[2][2];
+  for (int k = 0; k < 2; k++) box[k][0] = root->at[k] - 16 * root->radius, box[k][1] = root->at[k] + 16 * root->radius;
+  return piece_box(piece, box, pool, out);
 }
 
 /* The corner of the piece that is nearest to the root, if the root may be there and both polynomials are 0 there. */
@@ -150,14 +144,14 @@ static int quotient_sign(const struct placing *p, const struct sight_border *bor
 {
   struct pool *pool = &p->j->pool;
   const size_t before = pool->used;
-  struct piece half, part;
-  const int along = border->border < 2;
-  const double cells = 0x1p30, here = (double)p->piece.low[along] + p->piece.size[along] * p->root.at[along];
-  const double at = real_clamp(floor(here * cells) - 1, 0, cells - 3);
-  const limb end = border->border & 1 ? (limb)cells - 1 : 0;
+  struct piece part;
+  const int along = border->border < 2, end = border->border & 1;
+  const double here = (double)p->piece.low[along] + p->piece.size[along] * p->root.at[along];
+  double box[2][2];
+  box[along][0] = here - 0x1p-29, box[along][1] = here + 0x1p-29;
+  box[1 - along][0] = end ? 1 - 0x1p-30 : 0, box[1 - along][1] = end ? 1 : 0x1p-30;
   int positive = 0, negative = 0;
-  if (border->side != 0 && piece_part(&border->off, along, (limb)at, (limb)at + 3, 30, pool, &half) &&
-      piece_part(&half, 1 - along, end, end + 1, 30, pool, &part))
+  if (border->side != 0 && piece_box(&border->off, box, pool, &part))
     for (int c = 0; c < 16; c++)
       positive += part.value[NET_B][c / 4][c % 4] > 0, negative += part.value[NET_B][c / 4][c % 4] < 0;
   pool->used = before;
@@ -310,11 +304,14 @@ static bool decide_curves(struct judge *j, const struct waiting *it)
   return true;
 }
 
-static bool decide(struct judge *j, const struct waiting *it)
+/* Returns whether the piece is done with. If not, all that it may hold is in the box. */
+static bool decide(struct judge *j, const struct waiting *it, double box[2][2])
 {
   struct piece_root root;
+  for (int k = 0; k < 2; k++) box[k][0] = 0, box[k][1] = 1;
   if (it->border < 0 && j->sight.dependent) return decide_curves(j, it);
   const enum piece_verdict verdict = piece_root(&it->piece, &j->pool, &root);
+  memcpy(box, root.box, sizeof root.box);
   if (verdict == PIECE_ROOT) tell_root(j, it, &root);
   if (verdict != PIECE_OPEN || decide_corner(j, it)) return true;
   if (it->piece.size[0] > LEAST_SIZE || it->piece.size[1] > LEAST_SIZE) return false;
@@ -346,19 +343,26 @@ static int work_of(const struct piece *piece)
   return 1 + limbs * limbs / WORK_LIMBS; /* rows of the Jacobian are products */
 }
 
-/* Replaces the piece, of which the pool has nothing behind, by its halves, the one that begins first last. Returns how
- * many remain of them, or -1 if there was no room. */
-static int halve(struct judge *j, const struct waiting *it, struct waiting out[2])
+/* A box smaller than this, as a part of the piece, is cut out rather than the piece halved. A choice of speed. */
+#define BOX_AREA 0.125
+
+/* Replaces the piece, behind which the pool holds nothing, by the part that holds the box, or by its halves, the one
+ * that begins first last. Returns how many of them may hold a root, or -1 if there was no room. */
+static int divide(struct judge *j, const struct waiting *it, const double box[2][2], struct waiting out[2])
 {
-  struct piece half[2];
-  int axis = piece_longer(&it->piece), count = 0;
-  if (it->piece.size[axis] <= LEAST_SIZE) axis = 1 - axis;
-  const bool grows = piece_depth_grows(&it->piece, axis) == (j->sight.along > 0);
-  if (!piece_halve(&it->piece, axis, grows, &j->pool, half)) return -1;
-  judge_spend(j, work_of(&half[0]) + work_of(&half[1]));
-  for (int h = 0; h < 2; h++) {
-    struct waiting next = {.piece = half[h], .border = it->border};
-    piece_measure(&next.piece);
+  struct piece part[2];
+  int axis = piece_longer(&it->piece), count = 0, parts = 1;
+  if ((box[0][1] - box[0][0]) * (box[1][1] - box[1][0]) < BOX_AREA) {
+    if (!piece_box(&it->piece, box, &j->pool, &part[0])) return -1;
+  } else {
+    if (it->piece.size[axis] <= LEAST_SIZE) axis = 1 - axis;
+    const bool grows = piece_depth_grows(&it->piece, axis) == (j->sight.along > 0);
+    if (!piece_halve(&it->piece, axis, grows, &j->pool, part)) return -1;
+    parts = 2;
+  }
+  for (int h = 0; h < parts; h++) {
+    struct waiting next = {.piece = part[h], .border = it->border};
+    judge_spend(j, work_of(&part[h]));
     set_reach(j, &next);
     if (!beyond(j, &next) && !piece_misses(&next.piece)) out[count++] = next;
   }
@@ -371,14 +375,15 @@ static void search_run(struct judge *j, struct waiting waiting[], int count)
 {
   while (count > 0) {
     const struct waiting it = waiting[--count];
-    struct waiting half[2];
-    int halves = 0;
-    if (!beyond(j, &it) && !decide(j, &it)) {
-      halves = j->work > 0 && count + 2 <= WAITING_MAX ? halve(j, &it, half) : -1;
-      if (halves < 0) judge_left(j, it.near, it.far), halves = 0;
+    struct waiting part[2];
+    double box[2][2];
+    int parts = 0;
+    if (!beyond(j, &it) && !decide(j, &it, box)) {
+      parts = j->work > 0 && count + 2 <= WAITING_MAX ? divide(j, &it, box, part) : -1;
+      if (parts < 0) judge_left(j, it.near, it.far), parts = 0;
     }
-    if (halves == 0) j->pool.used = it.begin;
-    for (int h = 0; h < halves; h++) waiting[count++] = half[h];
+    if (parts == 0) j->pool.used = it.begin;
+    for (int h = 0; h < parts; h++) waiting[count++] = part[h];
   }
 }
 
@@ -481,23 +486,19 @@ void search_region(struct judge *j, const struct exact_region *region)
 
 /* ---- sharp roots ---- */
 
-/* The part of the piece about the root, which it holds for certain, cut to 3/2^log2 of it, or as far as the root's place
- * is known. */
-static bool part_about(const struct piece *piece, const struct exact_root *root, int log2, struct pool *pool,
+/* The part of the patch within 2^-cut of the root, or within eight times the distance to which its place is known. False
+ * if that is all of it, or there is no room. */
+static bool part_about(const struct piece *piece, const struct exact_root *root, int cut, struct pool *pool,
                        struct piece *out)
 {
   const double at[2] = {(double)root->u, (double)root->v}, radius[2] = {root->radius_u, root->radius_v};
-  struct piece half;
-  for (int axis = 0; axis < 2; axis++) {
-    int exponent, cut = log2;
-    (void)frexp(radius[axis], &exponent);
-    if (radius[axis] > 0 && -exponent - 2 < cut) cut = -exponent - 2;
-    if (cut < 2) return false;
-    const double cells = ldexp(1, cut), first = real_clamp(floor(at[axis] * cells) - 1, 0, cells - 3);
-    if (!piece_part(axis ? &half : piece, axis, (limb)first, (limb)first + 3, cut, pool, axis ? out : &half))
-      return false;
+  double box[2][2];
+  for (int k = 0; k < 2; k++) {
+    const double far = real_max(ldexp(1, -cut), 8 * radius[k]);
+    if (!(far < 0.5)) return false;
+    box[k][0] = at[k] - far, box[k][1] = at[k] + far;
   }
-  return true;
+  return piece_box(piece, box, pool, out);
 }
 
 /* How finely the patch is cut about a root, in turns, until the certificate holds. */
