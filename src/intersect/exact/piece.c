@@ -120,43 +120,67 @@ bool piece_halve(const struct piece *piece, int axis, bool high_first, struct po
   return true;
 }
 
-/* The cubic over [at[0], at[1]] / of, times of^3, by blossoms. */
-static void cubic_part(limb (*c)[PIECE_LIMBS_MAX], limb (*out)[PIECE_LIMBS_MAX], int limbs, const limb at[2], limb of)
+/* The cubic over [from, from + length] / 2^log2, times 2^(3 log2). Let D[k] be its k-th forward differences, so it is the
+ * sum of binomial(3,k) D[k] t^k; those are moved to `from` by Horner's scheme, and become coefficients again by sums. */
+static void cubic_part(const limb *const c[4], int in, limb *const out[4], int limbs, limb from, limb length, int log2)
 {
-  limb once[2][3][PIECE_LIMBS_MAX], twice[3][2][PIECE_LIMBS_MAX];
-  for (int e = 0; e < 2; e++)
-    for (int n = 0; n < 3; n++) limbs_blend(once[e][n], c[n], c[n + 1], limbs, of - at[e], at[e]);
-  for (int e = 0; e < 3; e++) /* from and from, from and to, to and to */
+  limb D[4][PIECE_LIMBS_MAX];
+  limb_sum borrow[6] = {0};
+  for (int k = 0; k < limbs; k++) {
+    const limb x[4] = {limbs_at(c[0], in, k), limbs_at(c[1], in, k), limbs_at(c[2], in, k), limbs_at(c[3], in, k)};
+    limb once[3], twice[2];
+    for (int n = 0; n < 3; n++)
+      borrow[n] += x[n + 1], borrow[n] -= x[n], once[n] = (limb)borrow[n], borrow[n] >>= LIMB_BITS;
     for (int n = 0; n < 2; n++)
-      limbs_blend(twice[e][n], once[e / 2][n], once[e / 2][n + 1], limbs, of - at[(e + 1) / 2], at[(e + 1) / 2]);
-  for (int n = 0; n < 4; n++) {
-    const int e = n < 2 ? 0 : n - 1, last = n > 0;
-    limbs_blend(out[n], twice[e][0], twice[e][1], limbs, of - at[last], at[last]);
+      borrow[n + 3] += once[n + 1], borrow[n + 3] -= once[n], twice[n] = (limb)borrow[n + 3],
+                                                              borrow[n + 3] >>= LIMB_BITS;
+    borrow[5] += twice[1], borrow[5] -= twice[0];
+    D[0][k] = x[0], D[1][k] = once[0], D[2][k] = twice[0], D[3][k] = (limb)borrow[5], borrow[5] >>= LIMB_BITS;
+  }
+  for (int last = 2; last >= 0; last--) {
+    for (int n = 0; n <= last; n++) {
+      limb_pair sum = 0;
+      limb below = 0;
+      for (int k = 0; k < limbs; k++) {
+        const limb x = D[n][k];
+        sum += (limb_pair)D[n + 1][k] * from + shift_limbs(x, below, log2);
+        D[n][k] = (limb)sum, sum >>= LIMB_BITS, below = x;
+      }
+    }
+  }
+  const limb by[4] = {1, length, length * length, length * length * length};
+  limb_pair part[4] = {0}, sum[4] = {0};
+  for (int k = 0; k < limbs; k++) {
+    limb x[4];
+    for (int n = 0; n < 4; n++) part[n] += (limb_pair)D[n][k] * by[n], x[n] = (limb)part[n], part[n] >>= LIMB_BITS;
+    sum[1] += (limb_pair)x[0] + x[1], sum[2] += (limb_pair)x[0] + 2 * (limb_pair)x[1] + x[2];
+    sum[3] += (limb_pair)x[0] + 3 * ((limb_pair)x[1] + x[2]) + x[3];
+    out[0][k] = x[0];
+    for (int n = 1; n < 4; n++) out[n][k] = (limb)sum[n], sum[n] >>= LIMB_BITS;
   }
 }
 
 bool piece_part(const struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool, struct piece *out)
 {
-  const limb of = (limb)1 << log2, ends[2] = {from, to};
+  const limb of = (limb)1 << log2;
   place(piece, axis, (wide)from / of, ldexp((double)(to - from), -log2), (const bool[2]){from == 0, to == of}, out);
   for (int k = 0; k < NETS; k++)
     out->limbs[k] = limbs_for(piece->bits[k] + 3 * log2 + 1), out->exponent[k] = piece->exponent[k] - 3 * log2;
   if (!piece_room(out, pool)) return false;
-  limb c[4][PIECE_LIMBS_MAX], to_c[4][PIECE_LIMBS_MAX];
   for (int k = 0; k < NETS; k++) {
-    const int in = piece->limbs[k], limbs = out->limbs[k];
     for (int row = 0; row < 4; row++) {
-      for (int n = 0; n < 4; n++) limbs_copy(c[n], limbs, piece->net[k] + cubic_at(axis, row, n) * in, in);
-      cubic_part(c, to_c, limbs, ends, of);
-      for (int n = 0; n < 4; n++) limbs_copy(out->net[k] + cubic_at(axis, row, n) * limbs, limbs, to_c[n], limbs);
+      const limb *c[4];
+      limb *to_c[4];
+      for (int n = 0; n < 4; n++) {
+        const int at = cubic_at(axis, row, n);
+        c[n] = piece->net[k] + at * piece->limbs[k], to_c[n] = out->net[k] + at * out->limbs[k];
+      }
+      cubic_part(c, piece->limbs[k], to_c, out->limbs[k], from, to - from, log2);
     }
   }
   piece_measure(out);
   return true;
 }
-
-/* A box is cut out with its ends rounded outwards to 2^-BOX_BITS or, if it is longer, to an eighth of its length. */
-enum { BOX_BITS = 40 };
 
 bool piece_box(const struct piece *piece, const double box[2][2], struct pool *pool, struct piece *out)
 {

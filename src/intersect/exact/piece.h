@@ -59,12 +59,14 @@ void piece_measure(struct piece *piece);
  * the other one. False if there was no room; nothing is then taken from the pool. */
 bool piece_halve(const struct piece *piece, int axis, bool high_first, struct pool *pool, struct piece out[2]);
 
-/* The part [from, to] / 2^log2 of the piece along that axis, from < to <= 2^log2, log2 at most 60. */
+/* The part [from, to] / 2^log2 of the piece along that axis, from < to <= 2^log2, log2 at most 60, to - from at most
+ * 2^20. */
 bool piece_part(const struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool,
                 struct piece *out);
 
-/* The part that holds the box [box[0][0], box[0][1]] x [box[1][0], box[1][1]], as far as that lies in the piece. It is
- * at most a quarter longer, or as short as 2^-39. */
+/* The part that holds the box [box[0][0], box[0][1]] x [box[1][0], box[1][1]], as far as that lies in the piece, with
+ * its ends rounded outwards to an eighth of its length, but no further than to 2^-BOX_BITS. */
+enum { BOX_BITS = 40 };
 bool piece_box(const struct piece *piece, const double box[2][2], struct pool *pool, struct piece *out);
 
 /* Whether a or b keeps one sign on the piece: then it has no root. */

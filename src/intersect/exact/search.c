@@ -346,14 +346,50 @@ static int work_of(const struct piece *piece)
 /* A box smaller than this, as a part of the piece, is cut out rather than the piece halved. A choice of speed. */
 #define BOX_AREA 0.125
 
+/* If the box is small, and a multiple of 2^-SIMPLE_BITS of the patch is strictly inside it by one parameter at least, a
+ * tangency may be exactly there: then parts of the patch that together hold the box, and end there. Returns how many;
+ * 0 if there is no such point, -1 if there was no room. */
+enum { SIMPLE_BITS = 16, PARTS_MAX = 4 };
+static int divide_at_simple(struct judge *j, const struct waiting *it, const double box[2][2],
+                            struct piece out[PARTS_MAX])
+{
+  const struct piece *piece = &it->piece;
+  const struct piece *whole = it->border < 0 ? &j->sight.off : &j->sight.border[it->border].on;
+  double at[2], far = 0;
+  bool side[2][2];
+  for (int k = 0; k < 2; k++) {
+    const wide low = piece->low[k] + box[k][0] * (wide)piece->size[k],
+               high = piece->low[k] + box[k][1] * (wide)piece->size[k];
+    at[k] = ldexp(rint(ldexp((double)low / 2 + (double)high / 2, SIMPLE_BITS)), -SIMPLE_BITS);
+    side[k][0] = low < at[k], side[k][1] = at[k] < high;
+    if (low > at[k] || at[k] > high) return 0;
+    far = real_max(far, real_max((double)(at[k] - low), (double)(high - at[k])));
+  }
+  if ((side[0][0] && side[0][1]) + (side[1][0] && side[1][1]) == 0 || far >= ldexp(1, -SIMPLE_BITS - 4)) return 0;
+  int exponent, count = 0;
+  (void)frexp(far, &exponent);
+  const int log2 = exponent < -BOX_BITS ? BOX_BITS : -exponent;
+  for (int n = 0; n < 4; n++) {
+    struct piece half;
+    const limb u = (limb)ldexp(at[0], log2) - (n / 2 == 0), v = (limb)ldexp(at[1], log2) - (n % 2 == 0);
+    if (!side[0][n / 2] || !side[1][n % 2]) continue;
+    if (!piece_part(whole, 0, u, u + 1, log2, &j->pool, &half)) return -1;
+    if (!piece_part(&half, 1, v, v + 1, log2, &j->pool, &out[count++])) return -1;
+  }
+  return count;
+}
+
 /* Replaces the piece, behind which the pool holds nothing, by the part that holds the box, or by its halves, the one
  * that begins first last. Returns how many of them may hold a root, or -1 if there was no room. */
-static int divide(struct judge *j, const struct waiting *it, const double box[2][2], struct waiting out[2])
+static int divide(struct judge *j, const struct waiting *it, const double box[2][2], struct waiting out[PARTS_MAX])
 {
-  struct piece part[2];
-  int axis = piece_longer(&it->piece), count = 0, parts = 1;
-  if ((box[0][1] - box[0][0]) * (box[1][1] - box[1][0]) < BOX_AREA) {
+  struct piece part[PARTS_MAX];
+  int axis = piece_longer(&it->piece), count = 0, parts = divide_at_simple(j, it, box, part);
+  if (parts < 0) return -1;
+  if (parts > 0) {
+  } else if ((box[0][1] - box[0][0]) * (box[1][1] - box[1][0]) < BOX_AREA) {
     if (!piece_box(&it->piece, box, &j->pool, &part[0])) return -1;
+    parts = 1;
   } else {
     if (it->piece.size[axis] <= LEAST_SIZE) axis = 1 - axis;
     const bool grows = piece_depth_grows(&it->piece, axis) == (j->sight.along > 0);
@@ -375,11 +411,11 @@ static void search_run(struct judge *j, struct waiting waiting[], int count)
 {
   while (count > 0) {
     const struct waiting it = waiting[--count];
-    struct waiting part[2];
+    struct waiting part[PARTS_MAX];
     double box[2][2];
     int parts = 0;
     if (!beyond(j, &it) && !decide(j, &it, box)) {
-      parts = j->work > 0 && count + 2 <= WAITING_MAX ? divide(j, &it, box, part) : -1;
+      parts = j->work > 0 && count + PARTS_MAX <= WAITING_MAX ? divide(j, &it, box, part) : -1;
       if (parts < 0) judge_left(j, it.near, it.far), parts = 0;
     }
     if (parts == 0) j->pool.used = it.begin;
