@@ -6,12 +6,15 @@
 
 /* ---- nets ---- */
 
-/* The bits of the largest coefficient, by those of all together. */
+/* The bits of the largest coefficient, by those of all together; 0 only if all are 0. */
 static int net_bits(const limb *net, int limbs)
 {
   for (int k = limbs; k-- > 0;) {
     limb any = 0;
-    for (int c = 0; c < 16; c++) any |= net[c * limbs + k] ^ limbs_fill(net + c * limbs, limbs);
+    for (int c = 0; c < 16; c++) {
+      const limb fill = limbs_fill(net + c * limbs, limbs);
+      any |= (net[c * limbs + k] ^ fill) | (k == 0 && fill);
+    }
     if (any) return LIMB_BITS * k + LIMB_BITS - __builtin_clzll(any);
   }
   return 0;
@@ -40,85 +43,18 @@ bool piece_room(struct piece *out, struct pool *pool)
 
 void piece_measure(struct piece *piece)
 {
-  for (int k = 0; k < 2; k++) piece->bits[k] = net_round(piece->net[k], piece->limbs[k], piece->value[k]);
-  piece->bits[NET_W] = net_bits(piece->net[NET_W], piece->limbs[NET_W]);
+  for (int k = 0; k < NETS; k++)
+    piece->bits[k] = net_round(piece->net[k], piece->limbs[k], piece->value[k]), piece->error[k] = PIECE_ERROR;
+  piece->scale = piece->bits[NET_W] + piece->exponent[NET_W];
 }
 
-/* ---- parts ---- */
+/* ---- parts, exactly ---- */
 
 /* The index of coefficient k of the cubic number `row` that runs along u (axis 0) or v. */
 static inline int cubic_at(int axis, int row, int k) { return axis == 0 ? 4 * k + row : 4 * row + k; }
 
-/* a + b + *carry, and the carry of that. */
-static inline limb add_limbs(limb a, limb b, bool *carry)
-{
-  limb sum;
-  const bool first = __builtin_add_overflow(a, b, &sum), second = __builtin_add_overflow(sum, (limb)*carry, &sum);
-  *carry = first | second;
-  return sum;
-}
-
 /* The limb of 2^by x, of which `below` is the limb before. */
-static inline limb shift_limbs(limb x, limb below, int by) { return x << by | below >> (LIMB_BITS - by); }
-
-/* Both halves of a cubic, times 8, by de Casteljau's algorithm, a limb of all numbers at a time. Sums are taken modulo
- * 2^(64 limbs), in which the results fit; the limbs above the `in` limbs of an operand are those of its sign. */
-static void cubic_halve(const limb *const c[4], int in, limb *const low[4], limb *const high[4], int out)
-{
-  bool carry[6] = {false};
-  limb fill[4], p0 = 0, s0 = 0, pq0 = 0, rs0 = 0, pqr0 = 0, qrs0 = 0;
-  for (int n = 0; n < 4; n++) fill[n] = limbs_fill(c[n], in);
-  for (int k = 0; k < out; k++) {
-    const limb p = k < in ? c[0][k] : fill[0], q = k < in ? c[1][k] : fill[1];
-    const limb r = k < in ? c[2][k] : fill[2], s = k < in ? c[3][k] : fill[3];
-    const limb pq = add_limbs(p, q, &carry[0]), qr = add_limbs(q, r, &carry[1]), rs = add_limbs(r, s, &carry[2]);
-    const limb pqr = add_limbs(pq, qr, &carry[3]), qrs = add_limbs(qr, rs, &carry[4]);
-    low[3][k] = high[0][k] = add_limbs(pqr, qrs, &carry[5]);
-    low[0][k] = shift_limbs(p, p0, 3), low[1][k] = shift_limbs(pq, pq0, 2), low[2][k] = shift_limbs(pqr, pqr0, 1);
-    high[1][k] = shift_limbs(qrs, qrs0, 1), high[2][k] = shift_limbs(rs, rs0, 2), high[3][k] = shift_limbs(s, s0, 3);
-    p0 = p, s0 = s, pq0 = pq, rs0 = rs, pqr0 = pqr, qrs0 = qrs;
-  }
-}
-
-/* The part's place: from `at` on, `part` of the piece long. `ends`: whether it reaches the piece's borders there. */
-static void place(const struct piece *piece, int axis, wide at, double part, const bool ends[2], struct piece *out)
-{
-  for (int k = 0; k < 2; k++) out->low[k] = piece->low[k], out->size[k] = piece->size[k];
-  if (!ends[0]) out->low[axis] += at * piece->size[axis];
-  out->size[axis] *= part;
-  out->borders = piece->borders;
-  for (int end = 0; end < 2; end++)
-    if (!ends[end]) out->borders &= ~(1u << (2 * axis + end));
-}
-
-bool piece_halve(const struct piece *piece, int axis, bool high_first, struct pool *pool, struct piece out[2])
-{
-  const size_t before = pool->used;
-  for (int h = 0; h < 2; h++) {
-    const int high = high_first ? 1 - h : h;
-    place(piece, axis, high / (wide)2, 0.5, (const bool[2]){high == 0, high == 1}, &out[h]);
-    for (int k = 0; k < NETS; k++)
-      out[h].limbs[k] = limbs_for(piece->bits[k] + 4), out[h].exponent[k] = piece->exponent[k] - 3;
-    if (piece_room(&out[h], pool)) continue;
-    pool->used = before;
-    return false;
-  }
-  for (int k = 0; k < NETS; k++) {
-    const int in = piece->limbs[k], limbs = out[0].limbs[k];
-    for (int row = 0; row < 4; row++) {
-      const limb *c[4];
-      limb *low[4], *high[4];
-      for (int n = 0; n < 4; n++) {
-        const int at = cubic_at(axis, row, n);
-        c[n] = piece->net[k] + at * in;
-        low[n] = out[high_first].net[k] + at * limbs, high[n] = out[!high_first].net[k] + at * limbs;
-      }
-      cubic_halve(c, in, low, high, limbs);
-    }
-  }
-  for (int h = 0; h < 2; h++) piece_measure(&out[h]);
-  return true;
-}
+static inline limb shift_limbs(limb x, limb below, int by) { return by == 0 ? x : x << by | below >> (LIMB_BITS - by); }
 
 /* The cubic over [from, from + length] / 2^log2, times 2^(3 log2). Let D[k] be its k-th forward differences, so it is the
  * sum of binomial(3,k) D[k] t^k; those are moved to `from` by Horner's scheme, and become coefficients again by sums. */
@@ -160,29 +96,112 @@ static void cubic_part(const limb *const c[4], int in, limb *const out[4], int l
   }
 }
 
-bool piece_part(const struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool, struct piece *out)
+/* Sets the nets of `out` to those of its part of what `piece` is a part of, along one axis. */
+static bool part_exactly(const struct piece *piece, int axis, struct pool *pool, struct piece *out)
 {
-  const limb of = (limb)1 << log2;
-  place(piece, axis, (wide)from / of, ldexp((double)(to - from), -log2), (const bool[2]){from == 0, to == of}, out);
+  const int log2 = piece->log2[axis];
   for (int k = 0; k < NETS; k++)
     out->limbs[k] = limbs_for(piece->bits[k] + 3 * log2 + 1), out->exponent[k] = piece->exponent[k] - 3 * log2;
   if (!piece_room(out, pool)) return false;
   for (int k = 0; k < NETS; k++) {
     for (int row = 0; row < 4; row++) {
       const limb *c[4];
-      limb *to_c[4];
+      limb *to[4];
       for (int n = 0; n < 4; n++) {
         const int at = cubic_at(axis, row, n);
-        c[n] = piece->net[k] + at * piece->limbs[k], to_c[n] = out->net[k] + at * out->limbs[k];
+        c[n] = piece->net[k] + at * piece->limbs[k], to[n] = out->net[k] + at * out->limbs[k];
       }
-      cubic_part(c, piece->limbs[k], to_c, out->limbs[k], from, to - from, log2);
+      cubic_part(c, piece->limbs[k], to, out->limbs[k], piece->from[axis], piece->length[axis], log2);
     }
+    out->bits[k] = net_bits(out->net[k], out->limbs[k]);
   }
-  piece_measure(out);
+  out->from[axis] = 0, out->length[axis] = 1, out->log2[axis] = 0;
   return true;
 }
 
-bool piece_box(const struct piece *piece, const double box[2][2], struct pool *pool, struct piece *out)
+bool piece_exact(struct piece *piece, struct pool *pool)
+{
+  struct piece half = *piece, all;
+  const size_t before = pool->used;
+  if (piece_is_exact(piece)) return true;
+  if (!part_exactly(piece, 0, pool, &half)) return false;
+  all = half;
+  if (!part_exactly(&half, 1, pool, &all)) return false;
+  const size_t length = pool->used - (size_t)(all.net[0] - pool->at); /* over the halves, which served */
+  memmove(pool->at + before, all.net[0], length * sizeof(limb));
+  for (int k = NETS; k-- > 0;) all.net[k] = pool->at + before + (all.net[k] - all.net[0]);
+  pool->used = before + length;
+  *piece = all;
+  piece_measure(piece);
+  return true;
+}
+
+/* ---- parts, in doubles ---- */
+
+/* The cubics that run along the axis, over [ends[0], ends[1]], by blossoms: each of three steps is a mean, with two
+ * roundings of its size, and exact weights. */
+static void cut(const double net[4][4], int axis, const double ends[2], double out[4][4])
+{
+  for (int row = 0; row < 4; row++) {
+    double once[2][3], twice[3][2];
+    for (int e = 0; e < 2; e++) {
+      for (int n = 0; n < 3; n++) {
+        const int at = cubic_at(axis, row, n), next = cubic_at(axis, row, n + 1);
+        once[e][n] = (1 - ends[e]) * net[at / 4][at % 4] + ends[e] * net[next / 4][next % 4];
+      }
+    }
+    for (int e = 0; e < 3; e++) { /* first and first, first and last, last and last */
+      const double *c = once[e / 2], at = ends[(e + 1) / 2];
+      for (int n = 0; n < 2; n++) twice[e][n] = (1 - at) * c[n] + at * c[n + 1];
+    }
+    for (int n = 0; n < 4; n++) {
+      const double *c = twice[n < 2 ? 0 : n - 1], at = ends[n > 0];
+      const int to = cubic_at(axis, row, n);
+      out[to / 4][to % 4] = (1 - at) * c[0] + at * c[1];
+    }
+  }
+}
+
+/* Scales a net by a power of two, so that the largest coefficient is 1/2 to 1. Returns the exponent taken out. */
+static int normalise(double net[4][4], double *error)
+{
+  double most = 0;
+  int exponent;
+  for (int c = 0; c < 16; c++) most = real_max(most, fabs(net[c / 4][c % 4]));
+  (void)frexp(most, &exponent);
+  if (most == 0 || exponent == 0) return 0;
+  const double by = ldexp(1, -exponent);
+  for (int c = 0; c < 16; c++) net[c / 4][c % 4] *= by;
+  *error *= by;
+  return exponent;
+}
+
+/* Parts that are longer than this, in units of their place in what they are a part of, are made exact first. */
+enum { LENGTH_BITS = 20, PLACE_BITS = 60 };
+
+bool piece_part(struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool, struct piece *out)
+{
+  const limb of = (limb)1 << log2;
+  const double ends[2] = {ldexp((double)from, -log2), ldexp((double)to, -log2)};
+  if ((piece->log2[axis] + log2 > PLACE_BITS || piece->length[axis] * (to - from) >> LENGTH_BITS) &&
+      !piece_exact(piece, pool))
+    return false;
+  *out = *piece;
+  out->from[axis] = (piece->from[axis] << log2) + from * piece->length[axis];
+  out->length[axis] = piece->length[axis] * (to - from), out->log2[axis] = piece->log2[axis] + log2;
+  out->low[axis] += (wide)ends[0] * piece->size[axis], out->size[axis] *= ends[1] - ends[0];
+  if (from > 0) out->borders &= ~(1u << (2 * axis));
+  if (to < of) out->borders &= ~(1u << (2 * axis + 1));
+  for (int k = 0; k < NETS; k++) {
+    cut(piece->value[k], axis, ends, out->value[k]);
+    out->error[k] += 8 * UNIT_ROUNDOFF;
+    const int exponent = normalise(out->value[k], &out->error[k]);
+    if (k == NET_W) out->scale += exponent;
+  }
+  return true;
+}
+
+bool piece_box(struct piece *piece, const double box[2][2], struct pool *pool, struct piece *out)
 {
   struct piece half;
   for (int axis = 0; axis < 2; axis++) {
@@ -201,17 +220,21 @@ bool piece_box(const struct piece *piece, const double box[2][2], struct pool *p
 bool piece_misses(const struct piece *piece)
 {
   for (int k = 0; k < 2; k++) {
+    const double off = piece_is_exact(piece) ? 0 : piece->error[k]; /* rounding keeps signs */
     int positive = 0, negative = 0;
     for (int c = 0; c < 16; c++)
-      positive += piece->value[k][c / 4][c % 4] > 0, negative += piece->value[k][c / 4][c % 4] < 0;
+      positive += piece->value[k][c / 4][c % 4] > off, negative += piece->value[k][c / 4][c % 4] < -off;
     if (positive == 16 || negative == 16) return true;
   }
   return false;
 }
 
-bool piece_corner_root(const struct piece *piece, int iu, int iv)
+bool piece_corner_root(struct piece *piece, int iu, int iv, struct pool *pool)
 {
   const int c = 12 * iu + 3 * iv;
+  for (int k = 0; k < 2; k++)
+    if (fabs(piece->value[k][3 * iu][3 * iv]) > piece->error[k]) return false;
+  if (!piece_exact(piece, pool)) return false;
   for (int k = 0; k < 2; k++)
     if (!limbs_zero(piece->net[k] + c * piece->limbs[k], piece->limbs[k])) return false;
   return true;
@@ -284,29 +307,17 @@ bool piece_weigh(const struct piece *piece, const double p[2], struct pool *pool
 
 void piece_depths(const struct piece *piece, double *least, double *most)
 {
-  const limb *net = piece->net[NET_W];
-  const int limbs = piece->limbs[NET_W], shift = net_shift(piece->bits[NET_W]);
-  int64_t low = INT64_MAX, high = INT64_MIN;
-  for (int c = 0; c < 16; c++) {
-    const int64_t x = limbs_window(net + c * limbs, limbs, shift);
-    low = x < low ? x : low, high = x > high ? x : high;
-  }
-  /* to a double and one unit upwards */
-  const double unit = ldexp(1, shift + piece->exponent[NET_W]), slack = 2 * UNIT_ROUNDOFF;
-  *least = ((double)low - slack * fabs((double)low)) * unit;
-  *most = ((double)high + 1 + slack * fabs((double)high)) * unit;
+  double low = INFINITY, high = -INFINITY;
+  for (int c = 0; c < 16; c++)
+    low = real_min(low, piece->value[NET_W][c / 4][c % 4]), high = real_max(high, piece->value[NET_W][c / 4][c % 4]);
+  const double off = piece->error[NET_W] + 2 * UNIT_ROUNDOFF;
+  *least = ldexp(low - off, piece->scale), *most = ldexp(high + off, piece->scale);
 }
 
 bool piece_depth_grows(const struct piece *piece, int axis)
 {
-  const limb *net = piece->net[NET_W];
-  const int limbs = piece->limbs[NET_W], shift = net_shift(piece->bits[NET_W] + 2);
-  int64_t sum = 0;
-  for (int corner = 0; corner < 4; corner++) {
-    const int64_t x = limbs_window(net + (12 * (corner / 2) + 3 * (corner % 2)) * limbs, limbs, shift);
-    sum += (axis ? corner % 2 : corner / 2) ? x : -x;
-  }
-  return sum > 0;
+  const double(*w)[4] = piece->value[NET_W];
+  return axis == 0 ? w[3][0] + w[3][3] > w[0][0] + w[0][3] : w[0][3] + w[3][3] > w[0][0] + w[3][0];
 }
 
 void piece_depth_changes(const struct piece *piece, int limbs, limb *out)

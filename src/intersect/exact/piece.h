@@ -10,7 +10,8 @@
  *
  * and w = y_n for some axis n, so t = w / d_n at a root. Doubles are integers times powers of two, so the nets of a, b
  * and w are nets of integers, each times a power of two of its own, and so are those over any part of the patch with
- * rational ends: nothing is rounded. Tests look at the leading bits of the nets first.
+ * rational ends: nothing is rounded. But tests work on the same nets in doubles, with a bound on their errors, and pieces
+ * are cut in doubles. Where that leaves too few digits a piece is made exact, and its parts begin anew from there.
  */
 #ifndef PSCN_INTERSECT_EXACT_PIECE_H
 #define PSCN_INTERSECT_EXACT_PIECE_H
@@ -30,16 +31,26 @@ struct pool {
 enum { NET_A, NET_B, NET_W, NETS };
 
 struct piece {
+  /* the exact piece that it is a part of: */
   limb *net[NETS];    /* coefficient 4 i + j at net + (4 i + j) limbs; in a pool */
   int limbs[NETS];    /* of each coefficient */
-  int bits[NETS];     /* |coefficient| <= 2^bits */
+  int bits[NETS];     /* |coefficient| <= 2^bits; 0 if all are 0 */
   int exponent[NETS]; /* the polynomials are the integers times 2^exponent */
-  wide low[2];        /* the piece is [low, low + size] of the patch's u and v; low is right to WIDE_ROUNDOFF */
+  /* which part, in u and v: [from, from + length] / 2^log2; if it is all, the piece is exact */
+  limb from[2], length[2];
+  int log2[2];
+  /* the piece itself: */
+  wide low[2]; /* it is [low, low + size] of the patch's u and v; low is right to WIDE_ROUNDOFF */
   double size[2];
-  unsigned borders;      /* of the patch, on which the piece's own borders lie: bits as of geometry/edges.h */
-  double value[2][4][4]; /* a and b, times powers of two, at most 1 in size; off by no more than PIECE_ERROR */
+  unsigned borders;         /* of the patch, on which the piece's own borders lie: bits as of geometry/edges.h */
+  double value[NETS][4][4]; /* the nets over the piece, times powers of two, at most 1 in size */
+  double error[NETS];       /* of value */
+  int scale;                /* w is value[NET_W] times 2^scale */
 };
 
+static inline bool piece_is_exact(const struct piece *piece) { return piece->log2[0] == 0 && piece->log2[1] == 0; }
+
+/* An exact piece's */
 #define PIECE_ERROR 0x1p-53
 
 /* How far outside a piece its polynomials are used, in its parameters. There, a polynomial of degree 3 in one parameter
@@ -52,28 +63,26 @@ struct piece {
 /* Takes memory for the nets of `out`, whose limbs are set. False if there is none, or the numbers are too long. */
 bool piece_room(struct piece *out, struct pool *pool);
 
-/* Sets bits and value after the nets have been set. */
+/* Sets bits, value, error and scale of an exact piece after its nets have been set. */
 void piece_measure(struct piece *piece);
 
-/* Halves the piece across u (axis 0) or v (axis 1); out[0], the first in the pool, is the half of smaller parameters or
- * the other one. False if there was no room; nothing is then taken from the pool. */
-bool piece_halve(const struct piece *piece, int axis, bool high_first, struct pool *pool, struct piece out[2]);
+/* Makes the piece exact, on top of the pool. False if there is no room. */
+bool piece_exact(struct piece *piece, struct pool *pool);
 
-/* The part [from, to] / 2^log2 of the piece along that axis, from < to <= 2^log2, log2 at most 60, to - from at most
- * 2^20. */
-bool piece_part(const struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool,
-                struct piece *out);
+/* The part [from, to] / 2^log2 of the piece along u (axis 0) or v (axis 1), from < to <= 2^log2, log2 at most 40, to -
+ * from at most 2^16. The piece may have to be made exact first; false if there is no room for that. */
+bool piece_part(struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool, struct piece *out);
 
 /* The part that holds the box [box[0][0], box[0][1]] x [box[1][0], box[1][1]], as far as that lies in the piece, with
  * its ends rounded outwards to an eighth of its length, but no further than to 2^-BOX_BITS. */
 enum { BOX_BITS = 40 };
-bool piece_box(const struct piece *piece, const double box[2][2], struct pool *pool, struct piece *out);
+bool piece_box(struct piece *piece, const double box[2][2], struct pool *pool, struct piece *out);
 
 /* Whether a or b keeps one sign on the piece: then it has no root. */
 bool piece_misses(const struct piece *piece);
 
-/* Whether a and b are 0 in the piece's corner at u = iu, v = iv, each 0 or 1. */
-bool piece_corner_root(const struct piece *piece, int iu, int iv);
+/* Whether a and b are 0 in the piece's corner at u = iu, v = iv, each 0 or 1; it is then exact. */
+bool piece_corner_root(struct piece *piece, int iu, int iv, struct pool *pool);
 
 /* The axis along which a and b change more. */
 int piece_longer(const struct piece *piece);
@@ -95,10 +104,11 @@ struct piece_root {
  * Jacobian in the middle, so each has nearly no derivative by one of the parameters there. If one keeps its sign there
  * is no root. If, divided by its derivative in the middle, each has a Jacobian within `contraction` < 1 of the identity
  * all over the piece and its margin, in the maximum norm, then x -> x - F(x) contracts: there is at most one root, and
- * one within |F(x)| / (1 - contraction) of any x if that ball lies in the margin (Banach). */
-enum piece_verdict piece_root(const struct piece *piece, struct pool *pool, struct piece_root *out);
+ * one within |F(x)| / (1 - contraction) of any x if that ball lies in the margin (Banach). The piece is made exact if
+ * that takes more digits. */
+enum piece_verdict piece_root(struct piece *piece, struct pool *pool, struct piece_root *out);
 
-/* w at a point of the piece, known to within `radius` in both parameters. *error: absolute bound on what it is off. If
+/* w at a point of the piece, which is exact, known to within `radius` in both parameters. *error: absolute bound on what it is off. If
  * that is 0 and *exact is set, w is this number; if *exact is not set, it is larger by less than the last place. */
 wide piece_depth(const struct piece *piece, const double at[2], double radius, double *error, bool *exact);
 
@@ -106,7 +116,7 @@ wide piece_depth(const struct piece *piece, const double at[2], double radius, d
 bool piece_depth_grows(const struct piece *piece, int axis);
 
 /* Whether w changes all along every curve on which a (b, if a is 0 all over) is zero: their Jacobian is not singular. */
-bool piece_depth_turns(const struct piece *piece, struct pool *pool);
+bool piece_depth_turns(struct piece *piece, struct pool *pool);
 
 /* The net of w less its first coefficient, `limbs` long each, which takes two bits more than w. */
 void piece_depth_changes(const struct piece *piece, int limbs, limb *out);

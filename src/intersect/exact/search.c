@@ -25,7 +25,7 @@ enum { ZOOMS = 6 };
 
 struct waiting {
   struct piece piece;
-  size_t begin; /* of its nets in the pool */
+  size_t keep; /* the pool up to here holds what it is a part of */
   double near, far;
   int border; /* its roots are those on border[..] of the sight; -1: those off such borders */
 };
@@ -74,7 +74,7 @@ struct placing {
   struct depth depth;
 };
 
-static bool zoom(const struct piece *piece, const struct piece_root *root, struct pool *pool, struct piece *out)
+static bool zoom(struct piece *piece, const struct piece_root *root, struct pool *pool, struct piece *out)
 {
   double box[2][2];
   for (int k = 0; k < 2; k++) box[k][0] = root->at[k] - 16 * root->radius, box[k][1] = root->at[k] + 16 * root->radius;
@@ -86,7 +86,7 @@ static bool in_corner(struct placing *p)
 {
   const int u = p->root.at[0] >= 0.5, v = p->root.at[1] >= 0.5;
   if (fabs(p->root.at[0] - u) > p->root.radius || fabs(p->root.at[1] - v) > p->root.radius) return false;
-  if (!piece_corner_root(&p->piece, u, v)) return false;
+  if (!piece_corner_root(&p->piece, u, v, &p->j->pool)) return false;
   const int limbs = p->piece.limbs[NET_W];
   p->root.at[0] = u, p->root.at[1] = v, p->root.radius = 0, p->corner = true;
   p->depth.error = 0;
@@ -144,14 +144,14 @@ static int quotient_sign(const struct placing *p, const struct sight_border *bor
 {
   struct pool *pool = &p->j->pool;
   const size_t before = pool->used;
-  struct piece part;
+  struct piece off = border->off, part;
   const int along = border->border < 2, end = border->border & 1;
   const double here = (double)p->piece.low[along] + p->piece.size[along] * p->root.at[along];
   double box[2][2];
   box[along][0] = here - 0x1p-29, box[along][1] = here + 0x1p-29;
   box[1 - along][0] = end ? 1 - 0x1p-30 : 0, box[1 - along][1] = end ? 1 : 0x1p-30;
   int positive = 0, negative = 0;
-  if (border->side != 0 && piece_box(&border->off, box, pool, &part))
+  if (border->side != 0 && piece_box(&off, box, pool, &part) && piece_exact(&part, pool))
     for (int c = 0; c < 16; c++)
       positive += part.value[NET_B][c / 4][c % 4] > 0, negative += part.value[NET_B][c / 4][c % 4] < 0;
   pool->used = before;
@@ -202,6 +202,10 @@ static void tell_root(struct judge *j, const struct waiting *it, const struct pi
   const bool touched = root->radius == 0;
   struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
   for (int zooms = 0;; zooms++) {
+    if (!piece_exact(&p.piece, &j->pool)) {
+      judge_undecided(j, it->near);
+      break;
+    }
     if (p.corner) p.corner = false, (void)in_corner(&p);
     else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
     const enum order inside = in_patch(&p), within = inside == ORDER_BEFORE ? ORDER_BEFORE : in_range(&p);
@@ -270,11 +274,11 @@ static bool corner_alone(struct judge *j, const struct piece *piece, int u, int 
 }
 
 /* Decides a piece with a root in one of its corners. */
-static bool decide_corner(struct judge *j, const struct waiting *it)
+static bool decide_corner(struct judge *j, struct waiting *it)
 {
   for (int corner = 0; corner < 4; corner++) {
     const int u = corner / 2, v = corner % 2;
-    if (!piece_corner_root(&it->piece, u, v) || !corner_alone(j, &it->piece, 3 * u, 3 * v)) continue;
+    if (!piece_corner_root(&it->piece, u, v, &j->pool) || !corner_alone(j, &it->piece, 3 * u, 3 * v)) continue;
     const struct piece_root root = {.at = {u, v}, .radius = 0};
     tell_root(j, it, &root);
     return true;
@@ -294,7 +298,7 @@ static void tell_open(struct judge *j, const struct waiting *it)
 
 /* Where a and b are multiples of each other the ray meets curves. If t changes along them all over the piece, none of
  * them begins within it, and those that begin on the patch's borders are found there. */
-static bool decide_curves(struct judge *j, const struct waiting *it)
+static bool decide_curves(struct judge *j, struct waiting *it)
 {
   j->doubt |= j->all;
   judge_spend(j, WORK_CURVES);
@@ -305,7 +309,7 @@ static bool decide_curves(struct judge *j, const struct waiting *it)
 }
 
 /* Returns whether the piece is done with. If not, all that it may hold is in the box. */
-static bool decide(struct judge *j, const struct waiting *it, double box[2][2])
+static bool decide(struct judge *j, struct waiting *it, double box[2][2])
 {
   struct piece_root root;
   for (int k = 0; k < 2; k++) box[k][0] = 0, box[k][1] = 1;
@@ -324,19 +328,7 @@ static bool beyond(const struct judge *j, const struct waiting *it)
   return it->near > j->limit || it->far < j->asked->ray->t_min;
 }
 
-/* Moves the piece's nets to that place in the pool, which is not behind them. */
-static void move_nets(struct judge *j, struct waiting *it, size_t to)
-{
-  it->begin = to;
-  for (int k = 0; k < NETS; k++) {
-    const size_t limbs = 16 * (size_t)it->piece.limbs[k];
-    memmove(j->pool.at + to, it->piece.net[k], limbs * sizeof(limb));
-    it->piece.net[k] = j->pool.at + to, to += limbs;
-  }
-  j->pool.used = to;
-}
-
-/* What it takes to examine a piece. */
+/* What it takes to make a piece exact. */
 static int work_of(const struct piece *piece)
 {
   const int limbs = piece->limbs[NET_A] + piece->limbs[NET_B] + piece->limbs[NET_W];
@@ -354,7 +346,7 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
                             struct piece out[PARTS_MAX])
 {
   const struct piece *piece = &it->piece;
-  const struct piece *whole = it->border < 0 ? &j->sight.off : &j->sight.border[it->border].on;
+  struct piece *whole = it->border < 0 ? &j->sight.off : &j->sight.border[it->border].on;
   double at[2], far = 0;
   bool side[2][2];
   for (int k = 0; k < 2; k++) {
@@ -379,46 +371,42 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
   return count;
 }
 
-/* Replaces the piece, behind which the pool holds nothing, by the part that holds the box, or by its halves, the one
- * that begins first last. Returns how many of them may hold a root, or -1 if there was no room. */
-static int divide(struct judge *j, const struct waiting *it, const double box[2][2], struct waiting out[PARTS_MAX])
+/* Divides the piece: the part that holds the box, or its halves, the one that begins first last. Returns how many of them
+ * may hold a root, or -1 if there was no room. */
+static int divide(struct judge *j, struct waiting *it, const double box[2][2], struct waiting out[PARTS_MAX])
 {
   struct piece part[PARTS_MAX];
   int axis = piece_longer(&it->piece), count = 0, parts = divide_at_simple(j, it, box, part);
-  if (parts < 0) return -1;
-  if (parts > 0) {
-  } else if ((box[0][1] - box[0][0]) * (box[1][1] - box[1][0]) < BOX_AREA) {
-    if (!piece_box(&it->piece, box, &j->pool, &part[0])) return -1;
-    parts = 1;
-  } else {
+  if (parts == 0 && (box[0][1] - box[0][0]) * (box[1][1] - box[1][0]) < BOX_AREA) {
+    parts = piece_box(&it->piece, box, &j->pool, &part[0]) ? 1 : -1;
+  } else if (parts == 0) {
     if (it->piece.size[axis] <= LEAST_SIZE) axis = 1 - axis;
     const bool grows = piece_depth_grows(&it->piece, axis) == (j->sight.along > 0);
-    if (!piece_halve(&it->piece, axis, grows, &j->pool, part)) return -1;
-    parts = 2;
+    for (; parts >= 0 && parts < 2; parts++) {
+      const limb from = (parts == 0) == grows;
+      if (!piece_part(&it->piece, axis, from, from + 1, 1, &j->pool, &part[parts])) parts = -2;
+    }
   }
   for (int h = 0; h < parts; h++) {
-    struct waiting next = {.piece = part[h], .border = it->border};
-    judge_spend(j, work_of(&part[h]));
+    struct waiting next = {.piece = part[h], .keep = j->pool.used, .border = it->border};
     set_reach(j, &next);
     if (!beyond(j, &next) && !piece_misses(&next.piece)) out[count++] = next;
   }
-  j->pool.used = it->begin;
-  for (int h = 0; h < count; h++) move_nets(j, &out[h], j->pool.used);
-  return count;
+  return parts < 0 ? -1 : count;
 }
 
 static void search_run(struct judge *j, struct waiting waiting[], int count)
 {
   while (count > 0) {
-    const struct waiting it = waiting[--count];
-    struct waiting part[PARTS_MAX];
+    struct waiting it = waiting[--count], part[PARTS_MAX];
+    const bool exact = piece_is_exact(&it.piece);
     double box[2][2];
-    int parts = 0;
-    if (!beyond(j, &it) && !decide(j, &it, box)) {
-      parts = j->work > 0 && count + PARTS_MAX <= WAITING_MAX ? divide(j, &it, box, part) : -1;
-      if (parts < 0) judge_left(j, it.near, it.far), parts = 0;
-    }
-    if (parts == 0) j->pool.used = it.begin;
+    j->pool.used = it.keep;
+    judge_spend(j, 1);
+    if (beyond(j, &it) || decide(j, &it, box)) continue;
+    if (!exact && piece_is_exact(&it.piece)) judge_spend(j, work_of(&it.piece));
+    const int parts = j->work > 0 && count + PARTS_MAX <= WAITING_MAX ? divide(j, &it, box, part) : -1;
+    if (parts < 0) judge_left(j, it.near, it.far);
     for (int h = 0; h < parts; h++) waiting[count++] = part[h];
   }
 }
@@ -440,17 +428,15 @@ static struct cells cells_of(unsigned column, unsigned span, unsigned split)
   return (struct cells){column * of / split, ((column + span) * of + split - 1) / split, log2};
 }
 
-static bool region_begin(struct judge *j, const struct exact_region *region, const struct piece *whole,
-                         struct waiting *out)
+static bool region_begin(struct judge *j, const struct exact_region *region, struct piece *whole, struct waiting *out)
 {
   struct piece half;
   const uint16_t *split = j->asked->model->cuts[region->patch].split;
-  out->begin = j->pool.used;
   for (int k = 0; k < 2; k++) {
     const struct cells at = cells_of(region->column[k], region->span[k], split[k]);
     if (!piece_part(k ? &half : whole, k, at.from, at.to, at.log2, &j->pool, k ? &out->piece : &half)) return false;
   }
-  move_nets(j, out, out->begin);
+  out->keep = j->pool.used;
   set_reach(j, out);
   return true;
 }
@@ -522,23 +508,25 @@ void search_region(struct judge *j, const struct exact_region *region)
 
 /* ---- sharp roots ---- */
 
-/* The part of the patch within 2^-cut of the root, or within eight times the distance to which its place is known. False
- * if that is all of it, or there is no room. */
-static bool part_about(const struct piece *piece, const struct exact_root *root, int cut, struct pool *pool,
+/* The part of the patch within `far` of the root in u and v, or within eight times the distance to which its place is
+ * known. False if that is all of it, or there is no room. */
+static bool part_about(struct piece *piece, const struct exact_root *root, const double far[2], struct pool *pool,
                        struct piece *out)
 {
   const double at[2] = {(double)root->u, (double)root->v}, radius[2] = {root->radius_u, root->radius_v};
   double box[2][2];
   for (int k = 0; k < 2; k++) {
-    const double far = real_max(ldexp(1, -cut), 8 * radius[k]);
-    if (!(far < 0.5)) return false;
-    box[k][0] = at[k] - far, box[k][1] = at[k] + far;
+    const double here = real_max(far[k], 8 * radius[k]);
+    if (!(here < 0.5)) return false;
+    box[k][0] = at[k] - here, box[k][1] = at[k] + here;
   }
   return piece_box(piece, box, pool, out);
 }
 
-/* How finely the patch is cut about a root, in turns, until the certificate holds. */
-static const int cuts[] = {8, 20, 32, 44, 56};
+/* How far from a root the patch is cut, in turns, until the certificate holds: if it is not known how far the root is
+ * alone, or where that does not do. */
+static const double cuts[] = {0x1p-8, 0x1p-20, 0x1p-32, 0x1p-44, 0x1p-56};
+enum { CUTS = sizeof cuts / sizeof *cuts };
 
 bool search_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root)
 {
@@ -554,10 +542,11 @@ bool search_sharpen(const struct model *model, const struct ray *ray, bool sharp
     pool.used = 0;
     if (!(exchanged ? sight_make(P, ray, &pool, &sight) : sight_plane(P, ray, &pool, &sight))) return false;
     const size_t before = pool.used;
-    for (size_t k = 0; k < sizeof cuts / sizeof *cuts && !alone; k++) {
+    for (int n = root->alone[0] > 0 && root->alone[1] > 0 ? -1 : 0; n < CUTS && !alone; n++) {
+      const double far[2] = {n < 0 ? root->alone[0] : cuts[n], n < 0 ? root->alone[1] : cuts[n]};
       pool.used = before;
-      alone = part_about(exchanged ? &sight.off : &sight.plane, root, cuts[k], &pool, &piece) &&
-              piece_root(&piece, &pool, &found) == PIECE_ROOT;
+      alone = part_about(exchanged ? &sight.off : &sight.plane, root, far, &pool, &piece) &&
+              piece_exact(&piece, &pool) && piece_root(&piece, &pool, &found) == PIECE_ROOT;
     }
   }
   if (!alone) return false;
@@ -565,7 +554,7 @@ bool search_sharpen(const struct model *model, const struct ray *ray, bool sharp
     root->alone[k] = piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
   double error;
   bool exact;
-  for (int n = 0;; n++) {
+  for (int n = 0; piece_exact(&piece, &pool); n++) {
     const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
     root->sharp = found.radius * real_max(piece.size[0], piece.size[1]) <= SHARP;
     root->t = w / sight.along;

@@ -111,7 +111,7 @@ bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, st
   for (int axis = 0; axis < 3; axis++)
     if (!axis_make(P, ray, axis, pool, &y[axis])) return false;
   struct piece *piece = &out->plane;
-  *piece = (struct piece){.low = {0, 0}, .size = {1, 1}, .borders = 15};
+  *piece = (struct piece){.length = {1, 1}, .size = {1, 1}, .borders = 15};
   for (int n = 0; n < 2; n++) {
     const int i = (k + 1 + n) % 3;
     const double across[2] = {d[k], d[i]};
