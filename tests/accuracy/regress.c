@@ -60,7 +60,9 @@ TEST(test_start)
     assert_int_equal(miss.certainty, CERTAINTY_CERTAIN);
   }
   const double on[3] = {0.25, 0.125, 0};
-  assert_int_equal(closest(&trial, on, direction).certainty, CERTAINTY_GRAZING);
+  const struct hit start = closest(&trial, on, direction);
+  assert_int_equal(start.patch, HIT_NONE);
+  assert_int_equal(start.certainty, CERTAINTY_CERTAIN);
   trial_destroy(&trial);
 }
 

@@ -184,6 +184,7 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
 {
   struct judge j;
   judge_run(&j, asked, JUDGE_NEAREST, NULL);
+  if (j.hit && j.undecided <= most_t(&j.nearest)) (void)sharpen(&j, &j.nearest);
   const double to = j.hit ? most_t(&j.nearest) : INFINITY;
   *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = j.undecided > to || j.undecided == INFINITY};
   if (j.doubtful && !(j.hit && j.nearest.t <= j.maybe.t)) out->verdict = EXACT_MAYBE, out->maybe = j.maybe;

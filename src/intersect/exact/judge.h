@@ -11,7 +11,7 @@
 /* Work is counted in pieces examined, some 1,500 instructions each; one more for each WORK_LIMBS products of limbs of
  * their numbers. Writing a patch as the ray sees it counts as WORK_SIGHT of them, and so does zooming in on a root; looking for curves,
  * WORK_CURVES. */
-enum { WORK_LIMBS = 64, WORK_SIGHT = 8, WORK_CURVES = 16 };
+enum { WORK_LIMBS = 64, WORK_SIGHT = 8, WORK_CURVES = 40 };
 
 /* Memory for nets, in limbs: 256 KB, of which a search of rays with ordinary numbers needs a tenth. */
 enum { POOL_LIMBS = 1 << 15 };

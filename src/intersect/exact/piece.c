@@ -41,11 +41,30 @@ bool piece_room(struct piece *out, struct pool *pool)
   return true;
 }
 
+void piece_depth_changes(const struct piece *piece, int limbs, limb *out)
+{
+  const int in = piece->limbs[NET_W];
+  limb from[PIECE_LIMBS_MAX + 1];
+  limbs_copy(from, limbs, piece->net[NET_W], in);
+  for (int c = 0; c < 16; c++) {
+    limbs_copy(out + c * limbs, limbs, piece->net[NET_W] + c * in, in);
+    limbs_subtract(out + c * limbs, out + c * limbs, from, limbs);
+  }
+}
+
 void piece_measure(struct piece *piece)
 {
-  for (int k = 0; k < NETS; k++)
-    piece->bits[k] = net_round(piece->net[k], piece->limbs[k], piece->value[k]), piece->error[k] = PIECE_ERROR;
-  piece->scale = piece->bits[NET_W] + piece->exponent[NET_W];
+  limb change[16 * (PIECE_LIMBS_MAX + 1)];
+  bool exact;
+  for (int k = 0; k < NETS; k++) {
+    if (k != NET_W) piece->bits[k] = net_round(piece->net[k], piece->limbs[k], piece->value[k]);
+    piece->error[k] = PIECE_ERROR;
+  }
+  piece->bits[NET_W] = net_bits(piece->net[NET_W], piece->limbs[NET_W]);
+  const int limbs = limbs_for(piece->bits[NET_W] + 2);
+  piece_depth_changes(piece, limbs, change);
+  piece->scale = net_round(change, limbs, piece->value[NET_W]) + piece->exponent[NET_W];
+  piece->start = (double)limbs_wide(piece->net[NET_W], piece->limbs[NET_W], piece->exponent[NET_W], &exact);
 }
 
 /* ---- parts, exactly ---- */
@@ -187,6 +206,7 @@ bool piece_part(struct piece *piece, int axis, limb from, limb to, int log2, str
       !piece_exact(piece, pool))
     return false;
   *out = *piece;
+  if (from == 0 && to == of) return true;
   out->from[axis] = (piece->from[axis] << log2) + from * piece->length[axis];
   out->length[axis] = piece->length[axis] * (to - from), out->log2[axis] = piece->log2[axis] + log2;
   out->low[axis] += (wide)ends[0] * piece->size[axis], out->size[axis] *= ends[1] - ends[0];
@@ -310,8 +330,11 @@ void piece_depths(const struct piece *piece, double *least, double *most)
   double low = INFINITY, high = -INFINITY;
   for (int c = 0; c < 16; c++)
     low = real_min(low, piece->value[NET_W][c / 4][c % 4]), high = real_max(high, piece->value[NET_W][c / 4][c % 4]);
-  const double off = piece->error[NET_W] + 2 * UNIT_ROUNDOFF;
-  *least = ldexp(low - off, piece->scale), *most = ldexp(high + off, piece->scale);
+  const double off = high > low ? piece->error[NET_W] : 0;
+  low = ldexp(low - off, piece->scale), high = ldexp(high + off, piece->scale);
+  /* the start, the sum, and the differences above */
+  const double slack = 2 * UNIT_ROUNDOFF * (2 * fabs(piece->start) + real_max(-low, high));
+  *least = piece->start + low - slack, *most = piece->start + high + slack;
 }
 
 bool piece_depth_grows(const struct piece *piece, int axis)
@@ -320,34 +343,16 @@ bool piece_depth_grows(const struct piece *piece, int axis)
   return axis == 0 ? w[3][0] + w[3][3] > w[0][0] + w[0][3] : w[0][3] + w[3][3] > w[0][0] + w[3][0];
 }
 
-void piece_depth_changes(const struct piece *piece, int limbs, limb *out)
-{
-  const int in = piece->limbs[NET_W];
-  limb from[PIECE_LIMBS_MAX + 1], to[PIECE_LIMBS_MAX + 1];
-  limbs_copy(from, limbs, piece->net[NET_W], in);
-  for (int c = 0; c < 16; c++) {
-    limbs_copy(to, limbs, piece->net[NET_W] + c * in, in);
-    limbs_subtract(out + c * limbs, to, from, limbs);
-  }
-}
-
 wide piece_depth(const struct piece *piece, const double at[2], double radius, double *error, bool *exact)
 {
-  const int limbs = piece->limbs[NET_W], bits = piece->bits[NET_W], exponent = piece->exponent[NET_W];
-  const limb *net = piece->net[NET_W];
-  limb change[16 * (PIECE_LIMBS_MAX + 1)];
-  const int wider = limbs_for(bits + 2);
   double rest[4][4], most = 0;
-  piece_depth_changes(piece, wider, change);
-  const wide start = limbs_wide(net, limbs, exponent, exact);
-  const int changes = net_round(change, wider, rest);
-  if (changes == 0) {
-    *error = 0;
-    return start;
-  }
-  const double unit = ldexp(1, changes + exponent);
-  const struct patch_jet jet = patch_evaluate(rest, at[0], at[1]);
+  memcpy(rest, piece->value[NET_W], sizeof rest);
   for (int c = 0; c < 16; c++) most = real_max(most, fabs(rest[c / 4][c % 4]));
+  const wide start = limbs_wide(piece->net[NET_W], piece->limbs[NET_W], piece->exponent[NET_W], exact);
+  *error = 0;
+  if (most == 0) return start;
+  const double unit = ldexp(1, piece->scale);
+  const struct patch_jet jet = patch_evaluate(rest, at[0], at[1]);
   /* derivatives on the margin, of both parameters; roundings as in newton; the start's last place */
   *error = (2 * 6 * PIECE_GROWTH * most * radius + PIECE_MARGIN_OFF * 21 * UNIT_ROUNDOFF * most) * unit +
            (double)(4 * WIDE_ROUNDOFF * wide_abs(start));

@@ -43,9 +43,10 @@ struct piece {
   wide low[2]; /* it is [low, low + size] of the patch's u and v; low is right to WIDE_ROUNDOFF */
   double size[2];
   unsigned borders;         /* of the patch, on which the piece's own borders lie: bits as of geometry/edges.h */
-  double value[NETS][4][4]; /* the nets over the piece, times powers of two, at most 1 in size */
+  double value[NETS][4][4]; /* nets of a, b and w - start over the piece, times powers of two, at most 1 in size */
   double error[NETS];       /* of value */
-  int scale;                /* w is value[NET_W] times 2^scale */
+  int scale;                /* w is start + value[NET_W] 2^scale */
+  double start;             /* off by less than its last place */
 };
 
 static inline bool piece_is_exact(const struct piece *piece) { return piece->log2[0] == 0 && piece->log2[1] == 0; }

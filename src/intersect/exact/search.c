@@ -335,8 +335,9 @@ static int work_of(const struct piece *piece)
   return 1 + limbs * limbs / WORK_LIMBS; /* rows of the Jacobian are products */
 }
 
-/* A box smaller than this, as a part of the piece, is cut out rather than the piece halved. A choice of speed. */
-#define BOX_AREA 0.125
+/* A box shorter than this both ways, as a part of the piece, is cut out rather than the piece halved. A choice of speed,
+ * but for one thing: a piece that is cut in one way only may never end. */
+#define BOX_LENGTH 0.5
 
 /* If the box is small, and a multiple of 2^-SIMPLE_BITS of the patch is strictly inside it by one parameter at least, a
  * tangency may be exactly there: then parts of the patch that together hold the box, and end there. Returns how many;
@@ -377,7 +378,7 @@ static int divide(struct judge *j, struct waiting *it, const double box[2][2], s
 {
   struct piece part[PARTS_MAX];
   int axis = piece_longer(&it->piece), count = 0, parts = divide_at_simple(j, it, box, part);
-  if (parts == 0 && (box[0][1] - box[0][0]) * (box[1][1] - box[1][0]) < BOX_AREA) {
+  if (parts == 0 && real_max(box[0][1] - box[0][0], box[1][1] - box[1][0]) < BOX_LENGTH) {
     parts = piece_box(&it->piece, box, &j->pool, &part[0]) ? 1 : -1;
   } else if (parts == 0) {
     if (it->piece.size[axis] <= LEAST_SIZE) axis = 1 - axis;
