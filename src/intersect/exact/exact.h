@@ -11,7 +11,7 @@
  * until each piece has no root or one; judge.c decides what a root means for the answer; all.c and vertex.c count hits.
  *
  * A ray meets a patch in its borders and corners, too. All decisions are exact but these: two roots that the ray meets
- * within 2^-95 of their patches count as met at one t; and what is open when the work is used up is `grazing`.
+ * within 2^-106 of their patches count as met at one t; and what is open when the work is used up is `grazing`.
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H
@@ -42,7 +42,7 @@ struct exact_root {
   double radius_u, radius_v; /* absolute */
   double t_error;            /* absolute */
   double alone[2]; /* the patch has no other root whose parameters both lie within this of its own; 0 if not known */
-  bool sharp;      /* known within 2^-95 of its patch, or as well as can be */
+  bool sharp;      /* known within 2^-106 of its patch, or as well as can be */
 };
 
 /* A certain hit has its parameters to this accuracy. */

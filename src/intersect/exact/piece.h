@@ -106,8 +106,8 @@ struct piece_root {
  * is no root. If, divided by its derivative in the middle, each has a Jacobian within `contraction` < 1 of the identity
  * all over the piece and its margin, in the maximum norm, then x -> x - F(x) contracts: there is at most one root, and
  * one within |F(x)| / (1 - contraction) of any x if that ball lies in the margin (Banach). The piece is made exact if
- * that takes more digits. */
-enum piece_verdict piece_root(struct piece *piece, struct pool *pool, struct piece_root *out);
+ * that takes more digits: a few to decide it, or, if `fine`, those that a small radius takes. */
+enum piece_verdict piece_root(struct piece *piece, bool fine, struct pool *pool, struct piece_root *out);
 
 /* w at a point of the piece, which is exact, known to within `radius` in both parameters. *error: absolute bound on what it is off. If
  * that is 0 and *exact is set, w is this number; if *exact is not set, it is larger by less than the last place. */

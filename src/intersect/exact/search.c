@@ -21,7 +21,7 @@ enum { WAITING_MAX = 2 * 64 + 16 };
 
 /* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
 enum { ZOOMS = 6 };
-#define SHARP 0x1p-95
+#define SHARP 0x1p-106
 
 struct waiting {
   struct piece piece;
@@ -221,7 +221,8 @@ static void tell_root(struct judge *j, const struct waiting *it, const struct pi
     struct piece closer;
     judge_spend(j, WORK_SIGHT);
     enum piece_verdict verdict = PIECE_OPEN;
-    if (zooms < ZOOMS && zoom(&p.piece, &p.root, &j->pool, &closer)) verdict = piece_root(&closer, &j->pool, &p.root);
+    if (zooms < ZOOMS && zoom(&p.piece, &p.root, &j->pool, &closer))
+      verdict = piece_root(&closer, true, &j->pool, &p.root);
     if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
     if (verdict == PIECE_OPEN) {
       const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
@@ -314,7 +315,7 @@ static bool decide(struct judge *j, struct waiting *it, double box[2][2])
   struct piece_root root;
   for (int k = 0; k < 2; k++) box[k][0] = 0, box[k][1] = 1;
   if (it->border < 0 && j->sight.dependent) return decide_curves(j, it);
-  const enum piece_verdict verdict = piece_root(&it->piece, &j->pool, &root);
+  const enum piece_verdict verdict = piece_root(&it->piece, false, &j->pool, &root);
   memcpy(box, root.box, sizeof root.box);
   if (verdict == PIECE_ROOT) tell_root(j, it, &root);
   if (verdict != PIECE_OPEN || decide_corner(j, it)) return true;
@@ -547,7 +548,7 @@ bool search_sharpen(const struct model *model, const struct ray *ray, bool sharp
       const double far[2] = {n < 0 ? root->alone[0] : cuts[n], n < 0 ? root->alone[1] : cuts[n]};
       pool.used = before;
       alone = part_about(exchanged ? &sight.off : &sight.plane, root, far, &pool, &piece) &&
-              piece_exact(&piece, &pool) && piece_root(&piece, &pool, &found) == PIECE_ROOT;
+              piece_exact(&piece, &pool) && piece_root(&piece, true, &pool, &found) == PIECE_ROOT;
     }
   }
   if (!alone) return false;
@@ -561,7 +562,7 @@ bool search_sharpen(const struct model *model, const struct ray *ray, bool sharp
     root->t = w / sight.along;
     root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
     if (n == ZOOMS || root->sharp || (!sharpest && root->t_error <= LAST_PLACES * fabs((double)root->t))) break;
-    if (!zoom(&piece, &found, &pool, &closer) || piece_root(&closer, &pool, &found) != PIECE_ROOT) break;
+    if (!zoom(&piece, &found, &pool, &closer) || piece_root(&closer, true, &pool, &found) != PIECE_ROOT) break;
     piece = closer;
   }
   wide *at[2] = {&root->u, &root->v};
