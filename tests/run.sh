@@ -33,7 +33,7 @@ QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
 # their code.
 ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|kinds|examples|farm-slurm)|paper-counts'
 ASAN_WITHOUT+='|unit-(certificate|quadric-baseline|split)|accuracy-cycles'
-ASAN_WITHOUT+='|library-arm64|property-(flats|refine|sizes|solvers|twins|unkept)|cli-(merge|resume|povray-fails))$'
+ASAN_WITHOUT+='|library-arm64|property-(flats|refine|sizes|solvers|twins|unkept)|cli-(merge|resume|povray-fails|scene-memory))$'
 # Then these are left out of the development build's pass: the sanitizers' pass has done the same, and seen more.
 ALL_WITHOUT='^(fault-(commands|files)|peers-(check-.*|chart|dump|windows)|cli-(chart|compare|habits))$'
 JOBS=$(nproc)
