@@ -20,7 +20,7 @@
  * flags. Functions return a status. Messages, which say what was wrong and where, are kept with the scene.
  *
  * What an answer promises: of all points where the ray meets the patches, both exactly as given in doubles, a hit is
- * the nearest with t_min < t < t_max; a miss means that there is none. (Points no farther apart than 2^-95 of their
+ * the nearest with t_min < t < t_max; a miss means that there is none. (Points no farther apart than 2^-106 of their
  * patches, or 2^-105 of t, count as one t; the hit is then on the patch that comes first.) `certain` is 1 where this is
  * proven. It is 0, "grazing", where a change of the input within the rounding of its last digits could turn the answer:
  * at a tangency, at the border of an open surface, or if the ray lies in a surface. A hit is then reported wherever one

@@ -152,7 +152,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
 {
   double(*P)[4][3] = model->scene->patches[root->patch].P;
   if (root->t_error > LAST_PLACES * fabs((double)root->t))
-    (void)search_sharpen(model, ray, false, root); /* or its bounds hold as before */
+    (void)place_sharpen(model, ray, false, root); /* or its bounds hold as before */
   const double u = (double)root->u, v = (double)root->v;
   const bool at[4] = {u <= root->radius_u, 1 - u <= root->radius_u, v <= root->radius_v, 1 - v <= root->radius_v};
   unsigned borders = 0;

@@ -42,7 +42,7 @@ static bool sharpen(struct judge *j, struct exact_root *root)
 {
   if (root->sharp) return true;
   judge_spend(j, WORK_SIGHT);
-  return search_sharpen(j->asked->model, j->asked->ray, true, root);
+  return place_sharpen(j->asked->model, j->asked->ray, true, root);
 }
 
 static bool meet(const struct exact_root *a, const struct exact_root *b)

@@ -29,7 +29,6 @@ struct judge {
   double undecided; /* lower bound on t of all that may be a hit, and is not known to be one; infinite for none */
   double limit;     /* nothing beyond this t matters */
   int work;         /* still to be spent */
-  int reserve;      /* the same, for the regions that follow */
   /* of the current patch */
   uint32_t patch;
   bool seen; /* `sight` is set: its numbers are not too long */
@@ -65,9 +64,9 @@ void search_region(struct judge *j, const struct exact_region *region);
 /* A t as near as this, relatively, rounds to a double next to it. */
 #define LAST_PLACES 0x1p-58
 
-/* search.c: makes the root sharp, or, unless it is to be the `sharpest`, its t right to the last places. Returns false if
+/* place.c: makes the root sharp, or, unless it is to be the `sharpest`, its t right to the last places. Returns false if
  * its place could not be improved. */
-bool search_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root);
+bool place_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root);
 
 /* ---- what a search tells of the current patch ---- */
 

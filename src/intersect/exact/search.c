@@ -1,16 +1,13 @@
-/* Finds all that a ray meets in a region of a patch, by halving pieces of it until each has no root or one (piece.h).
+/* Finds all that a ray hits in a region of a patch, by dividing pieces of it until each has no root or one (piece.h).
  *
- * The piece that begins first along the ray is next; those behind the nearest hit so far are dropped. A root is then
- * placed: zoomed in on until it is known on which side of a border, and of the ray's start and end, it lies. That a root
- * lies exactly on one of them is decided by equality: in a corner of a piece both polynomials are zero; on a border they
- * have a common zero (sight.h); t of a flat patch is the same all over it. Where two roots are one, or a patch lies along
- * the ray, pieces become as small as LEAST_SIZE and are told as undecided.
+ * The piece that begins first along the ray is next; those behind the nearest hit so far are dropped. Where two roots
+ * are one, or a patch lies along the ray, pieces become as small as LEAST_SIZE and are reported as undecided.
  */
 #include <math.h>
 
 #include "base/real.h"
 #include "geometry/edges.h"
-#include "intersect/exact/judge.h"
+#include "intersect/exact/place.h"
 
 /* Pieces are not halved below this size, as a part of the patch. Roots that the ray passes at a distance of 2^-100 of
  * the patch from a tangency are 2^-50 apart. */
@@ -18,17 +15,6 @@
 
 /* A piece that waits is a sibling of one that is being halved. */
 enum { WAITING_MAX = 2 * 64 + 16 };
-
-/* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
-enum { ZOOMS = 6 };
-#define SHARP 0x1p-106
-
-struct waiting {
-  struct piece piece;
-  size_t keep; /* the pool up to here holds what it is a part of */
-  double near, far;
-  int border; /* its roots are those on border[..] of the sight; -1: those off such borders */
-};
 
 /* ---- along the ray ---- */
 
@@ -39,200 +25,6 @@ static void set_reach(const struct judge *j, struct waiting *it)
   const double one = least / j->sight.along, two = most / j->sight.along;
   it->near = real_min(one, two), it->far = real_max(one, two);
   it->near -= 2 * UNIT_ROUNDOFF * fabs(it->near), it->far += 2 * UNIT_ROUNDOFF * fabs(it->far);
-}
-
-/* How a root lies to an end of the ray. */
-enum order { ORDER_BEFORE, ORDER_AT, ORDER_BEHIND, ORDER_UNKNOWN };
-
-/* w at a root, as by piece_depth. */
-struct depth {
-  wide w;
-  double error;
-  bool exact;
-};
-
-/* The product of two doubles is exact in wide arithmetic. */
-static enum order order_to(const struct depth *depth, double along, double t)
-{
-  if (!(fabs(t) < INFINITY)) return t > 0 ? ORDER_BEFORE : ORDER_BEHIND;
-  const wide bound = (wide)t * along, off = depth->w - bound;
-  if (depth->error > 0 && wide_abs(off) <= depth->error + 4 * WIDE_ROUNDOFF * wide_abs(bound)) return ORDER_UNKNOWN;
-  if (off == 0 && depth->error == 0 && depth->exact) return ORDER_AT;
-  const bool above = off > 0 || (off == 0 && !depth->exact);
-  return above == (along > 0) ? ORDER_BEHIND : ORDER_BEFORE;
-}
-
-/* ---- a root's place ---- */
-
-struct placing {
-  struct judge *j;
-  const struct waiting *from;
-  struct piece piece; /* zoomed in */
-  struct piece_root root;
-  bool corner; /* it is exactly in the corner at `at` */
-  unsigned on; /* borders on which it lies */
-  struct depth depth;
-};
-
-static bool zoom(struct piece *piece, const struct piece_root *root, struct pool *pool, struct piece *out)
-{
-  double box[2][2];
-  for (int k = 0; k < 2; k++) box[k][0] = root->at[k] - 16 * root->radius, box[k][1] = root->at[k] + 16 * root->radius;
-  return piece_box(piece, box, pool, out);
-}
-
-/* The corner of the piece that is nearest to the root, if the root may be there and both polynomials are 0 there. */
-static bool in_corner(struct placing *p)
-{
-  const int u = p->root.at[0] >= 0.5, v = p->root.at[1] >= 0.5;
-  if (fabs(p->root.at[0] - u) > p->root.radius || fabs(p->root.at[1] - v) > p->root.radius) return false;
-  if (!piece_corner_root(&p->piece, u, v, &p->j->pool)) return false;
-  const int limbs = p->piece.limbs[NET_W];
-  p->root.at[0] = u, p->root.at[1] = v, p->root.radius = 0, p->corner = true;
-  p->depth.error = 0;
-  p->depth.w = limbs_wide(p->piece.net[NET_W] + (12 * u + 3 * v) * limbs, limbs, p->piece.exponent[NET_W],
-                          &p->depth.exact);
-  return true;
-}
-
-/* Whether the root is the common zero of the two polynomials on that border: then it is exactly there. */
-static bool on_border(const struct placing *p, int border)
-{
-  const struct waiting *from = p->from;
-  wide at;
-  if (from->border >= 0 || !sight_common(&p->j->sight.plane, border, &at)) return false;
-  const int along = border < 2;
-  const wide here = (at - from->piece.low[along]) / from->piece.size[along];
-  return here >= -PIECE_MARGIN / 2 && here <= 1 + PIECE_MARGIN / 2; /* there is one root in all that */
-}
-
-/* Sets p->on. Returns whether the root is in the patch: ORDER_BEHIND for yes, ORDER_BEFORE for no. */
-static enum order in_patch(struct placing *p)
-{
-  const int own = p->from->border >= 0 ? p->j->sight.border[p->from->border].border : -1;
-  unsigned unknown = 0;
-  p->on = own >= 0 ? 1u << own : 0;
-  for (int border = 0; border < 4; border++) {
-    if (border == own || !(p->piece.borders >> border & 1)) continue;
-    const double at = p->root.at[border / 2], inside = border & 1 ? 1 - at : at;
-    if (inside < -p->root.radius) return ORDER_BEFORE;
-    if (inside <= p->root.radius) unknown |= 1u << border;
-  }
-  if (p->corner || (unknown && in_corner(p))) {
-    p->on |= unknown;
-    return ORDER_BEHIND;
-  }
-  for (int border = 0; border < 4; border++)
-    if (unknown >> border & 1 && on_border(p, border)) p->on |= 1u << border, unknown &= ~(1u << border);
-  return unknown ? ORDER_UNKNOWN : ORDER_BEHIND;
-}
-
-static enum order in_range(struct placing *p)
-{
-  const struct ray *ray = p->j->asked->ray;
-  for (int tries = 0;; tries++) {
-    const enum order start = order_to(&p->depth, p->j->sight.along, ray->t_min);
-    const enum order end = order_to(&p->depth, p->j->sight.along, ray->t_max);
-    if (start == ORDER_BEFORE || start == ORDER_AT || end == ORDER_BEHIND || end == ORDER_AT) return ORDER_BEFORE;
-    if (start == ORDER_BEHIND && end == ORDER_BEFORE) return ORDER_BEHIND;
-    if (tries > 0 || p->corner || !in_corner(p)) return ORDER_UNKNOWN;
-  }
-}
-
-/* The sign of the quotient (sight.h) next to the root, which is on that border; 0 if that is not known. */
-static int quotient_sign(const struct placing *p, const struct sight_border *border)
-{
-  struct pool *pool = &p->j->pool;
-  const size_t before = pool->used;
-  struct piece off = border->off, part;
-  const int along = border->border < 2, end = border->border & 1;
-  const double here = (double)p->piece.low[along] + p->piece.size[along] * p->root.at[along];
-  double box[2][2];
-  box[along][0] = here - 0x1p-29, box[along][1] = here + 0x1p-29;
-  box[1 - along][0] = end ? 1 - 0x1p-30 : 0, box[1 - along][1] = end ? 1 : 0x1p-30;
-  int positive = 0, negative = 0;
-  if (border->side != 0 && piece_box(&off, box, pool, &part) && piece_exact(&part, pool))
-    for (int c = 0; c < 16; c++)
-      positive += part.value[NET_B][c / 4][c % 4] > 0, negative += part.value[NET_B][c / 4][c % 4] < 0;
-  pool->used = before;
-  return (positive == 16) - (negative == 16);
-}
-
-/* See exact_root.side. Let T be the border's tangent as the ray sees it, and X a point of the patch near to the root. A
- * regular root has cross(T,X) > 0 if the Jacobian's sign, and the ways in which the border and the way inward run, say
- * so. On a line through the origin T is the kept polynomial's derivative along the border over its control value, times
- * that point; and the quotient's sign is that of cross(X, point). */
-static int border_side(const struct placing *p)
-{
-  static const int sense[4] = {-1, 1, 1, -1};
-  const struct sight *sight = &p->j->sight;
-  const int border = __builtin_ctz(p->on);
-  if (p->on & (p->on - 1)) return 0;
-  if (p->from->border < 0) return sense[border] * p->root.turn * sight->flip;
-  const struct sight_border *own = &sight->border[p->from->border];
-  return -sense[border] * p->root.turn * own->side * quotient_sign(p, own);
-}
-
-static struct exact_root found_root(const struct placing *p)
-{
-  struct exact_root out = {.patch = p->j->patch, .borders = p->on};
-  double radius[2];
-  wide at[2];
-  for (int k = 0; k < 2; k++) {
-    at[k] = p->piece.low[k] + (wide)p->piece.size[k] * p->root.at[k];
-    radius[k] = p->piece.size[k] * p->root.radius + (double)(4 * WIDE_ROUNDOFF);
-    const wide first = (at[k] - p->from->piece.low[k]) / p->from->piece.size[k];
-    out.alone[k] = (double)p->from->piece.size[k] * (PIECE_MARGIN + (double)(first < 0.5 ? first : 1 - first));
-    if (p->from->border >= 0 && p->j->sight.border[p->from->border].border / 2 == k) out.alone[k] = 0;
-    for (int end = 0; end < 2; end++)
-      if (p->on >> (2 * k + end) & 1) at[k] = end, radius[k] = 0;
-  }
-  out.u = at[0], out.v = at[1], out.radius_u = radius[0], out.radius_v = radius[1];
-  out.sharp = p->corner || (radius[0] <= SHARP && radius[1] <= SHARP);
-  out.t = p->depth.w / p->j->sight.along;
-  out.t_error = p->depth.error / fabs(p->j->sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(out.t));
-  return out;
-}
-
-/* Tells of a root that piece_root has found; or, of radius 0, of one in the piece's corner where the Jacobian may vanish:
- * within the patch the ray may touch the surface there, so it does not count among all hits. */
-static void tell_root(struct judge *j, const struct waiting *it, const struct piece_root *root)
-{
-  const size_t before = j->pool.used;
-  const bool touched = root->radius == 0;
-  struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
-  for (int zooms = 0;; zooms++) {
-    if (!piece_exact(&p.piece, &j->pool)) {
-      judge_undecided(j, it->near);
-      break;
-    }
-    if (p.corner) p.corner = false, (void)in_corner(&p);
-    else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
-    const enum order inside = in_patch(&p), within = inside == ORDER_BEFORE ? ORDER_BEFORE : in_range(&p);
-    if (inside == ORDER_BEFORE || within == ORDER_BEFORE) break;
-    struct exact_root found = found_root(&p);
-    if (inside == ORDER_BEHIND && within == ORDER_BEHIND && (!p.on || found.sharp)) {
-      if (p.on) found.side = border_side(&p);
-      if (touched && !p.on && j->all)
-        judge_maybe(j, (double)found.u, (double)found.v, (double)found.t, found.t_error, (double)found.t);
-      else judge_root(j, &found);
-      break;
-    }
-    struct piece closer;
-    judge_spend(j, WORK_SIGHT);
-    enum piece_verdict verdict = PIECE_OPEN;
-    if (zooms < ZOOMS && zoom(&p.piece, &p.root, &j->pool, &closer))
-      verdict = piece_root(&closer, true, &j->pool, &p.root);
-    if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
-    if (verdict == PIECE_OPEN) {
-      const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
-      if (within == ORDER_UNKNOWN) judge_undecided(j, from);
-      else judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
-      break;
-    }
-    p.piece = closer;
-  }
-  j->pool.used = before;
 }
 
 /* ---- corners ---- */
@@ -281,7 +73,7 @@ static bool decide_corner(struct judge *j, struct waiting *it)
     const int u = corner / 2, v = corner % 2;
     if (!piece_corner_root(&it->piece, u, v, &j->pool) || !corner_alone(j, &it->piece, 3 * u, 3 * v)) continue;
     const struct piece_root root = {.at = {u, v}, .radius = 0};
-    tell_root(j, it, &root);
+    place_root(j, it, &root);
     return true;
   }
   return false;
@@ -317,7 +109,7 @@ static bool decide(struct judge *j, struct waiting *it, double box[2][2])
   if (it->border < 0 && j->sight.dependent) return decide_curves(j, it);
   const enum piece_verdict verdict = piece_root(&it->piece, false, &j->pool, &root);
   memcpy(box, root.box, sizeof root.box);
-  if (verdict == PIECE_ROOT) tell_root(j, it, &root);
+  if (verdict == PIECE_ROOT) place_root(j, it, &root);
   if (verdict != PIECE_OPEN || decide_corner(j, it)) return true;
   if (it->piece.size[0] > LEAST_SIZE || it->piece.size[1] > LEAST_SIZE) return false;
   tell_open(j, it);
@@ -457,7 +249,6 @@ static void tell_met(struct judge *j, int border)
     const wide t = depth.w / j->sight.along;
     near = real_min(near, (double)t);
     if (!pole) continue;
-    const struct ray *ray = j->asked->ray;
     edge_place(border, 0.5, at);
     const struct exact_root root = {.patch = j->patch,
                                     .borders = 1u << border,
@@ -466,9 +257,7 @@ static void tell_met(struct judge *j, int border)
                                     .t = t,
                                     .t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t)),
                                     .sharp = true};
-    if (order_to(&depth, j->sight.along, ray->t_min) == ORDER_BEHIND &&
-        order_to(&depth, j->sight.along, ray->t_max) == ORDER_BEFORE)
-      judge_root(j, &root);
+    if (place_in_range(j, &depth) == PLACE_IN) judge_root(j, &root);
     return;
   }
   edge_place(border, 0, at);
@@ -479,11 +268,9 @@ static void tell_met(struct judge *j, int border)
 static bool out_of_range(const struct judge *j)
 {
   static const double middle[2] = {0.5, 0.5};
-  const struct ray *ray = j->asked->ray;
   struct depth depth;
   depth.w = piece_depth(&j->sight.plane, middle, 1, &depth.error, &depth.exact);
-  return depth.error == 0 && (order_to(&depth, j->sight.along, ray->t_min) != ORDER_BEHIND ||
-                              order_to(&depth, j->sight.along, ray->t_max) != ORDER_BEFORE);
+  return depth.error == 0 && place_in_range(j, &depth) != PLACE_IN;
 }
 
 void search_region(struct judge *j, const struct exact_region *region)
@@ -506,71 +293,4 @@ void search_region(struct judge *j, const struct exact_region *region)
     judge_left(j, region->near, INFINITY);
   }
   j->pool.used = before;
-}
-
-/* ---- sharp roots ---- */
-
-/* The part of the patch within `far` of the root in u and v, or within eight times the distance to which its place is
- * known. False if that is all of it, or there is no room. */
-static bool part_about(struct piece *piece, const struct exact_root *root, const double far[2], struct pool *pool,
-                       struct piece *out)
-{
-  const double at[2] = {(double)root->u, (double)root->v}, radius[2] = {root->radius_u, root->radius_v};
-  double box[2][2];
-  for (int k = 0; k < 2; k++) {
-    const double here = real_max(far[k], 8 * radius[k]);
-    if (!(here < 0.5)) return false;
-    box[k][0] = at[k] - here, box[k][1] = at[k] + here;
-  }
-  return piece_box(piece, box, pool, out);
-}
-
-/* How far from a root the patch is cut, in turns, until the certificate holds: if it is not known how far the root is
- * alone, or where that does not do. */
-static const double cuts[] = {0x1p-8, 0x1p-20, 0x1p-32, 0x1p-44, 0x1p-56};
-enum { CUTS = sizeof cuts / sizeof *cuts };
-
-bool search_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root)
-{
-  double(*P)[4][3] = model->scene->patches[root->patch].P;
-  limb room[POOL_LIMBS];
-  struct pool pool = {room, POOL_LIMBS, 0};
-  struct sight sight;
-  struct piece piece, closer;
-  struct piece_root found;
-  bool alone = false;
-  if (root->sharp) return true;
-  for (int exchanged = 0; exchanged < 2 && !alone; exchanged++) { /* next to a pole, the pair is exchanged */
-    pool.used = 0;
-    if (!(exchanged ? sight_make(P, ray, &pool, &sight) : sight_plane(P, ray, &pool, &sight))) return false;
-    const size_t before = pool.used;
-    for (int n = root->alone[0] > 0 && root->alone[1] > 0 ? -1 : 0; n < CUTS && !alone; n++) {
-      const double far[2] = {n < 0 ? root->alone[0] : cuts[n], n < 0 ? root->alone[1] : cuts[n]};
-      pool.used = before;
-      alone = part_about(exchanged ? &sight.off : &sight.plane, root, far, &pool, &piece) &&
-              piece_exact(&piece, &pool) && piece_root(&piece, true, &pool, &found) == PIECE_ROOT;
-    }
-  }
-  if (!alone) return false;
-  for (int k = 0; k < 2; k++)
-    root->alone[k] = piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
-  double error;
-  bool exact;
-  for (int n = 0; piece_exact(&piece, &pool); n++) {
-    const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
-    root->sharp = found.radius * real_max(piece.size[0], piece.size[1]) <= SHARP;
-    root->t = w / sight.along;
-    root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
-    if (n == ZOOMS || root->sharp || (!sharpest && root->t_error <= LAST_PLACES * fabs((double)root->t))) break;
-    if (!zoom(&piece, &found, &pool, &closer) || piece_root(&closer, true, &pool, &found) != PIECE_ROOT) break;
-    piece = closer;
-  }
-  wide *at[2] = {&root->u, &root->v};
-  double *radius[2] = {&root->radius_u, &root->radius_v};
-  for (int k = 0; k < 2; k++) {
-    if (root->borders >> (2 * k) & 3) continue;
-    *at[k] = piece.low[k] + (wide)piece.size[k] * found.at[k];
-    *radius[k] = piece.size[k] * found.radius + (double)(4 * WIDE_ROUNDOFF);
-  }
-  return true;
 }

@@ -1,0 +1,273 @@
+/* Where a root lies: in the patch or on its borders, within the ray's range or not, and how far along the ray.
+ *
+ * A root is zoomed in on until it is known on which side of a border, and of the ray's start and end, it lies. Whether it
+ * lies exactly on one of them is decided by equality: in a corner of a piece both polynomials are zero; on a border they
+ * have a common zero (sight.h); t of a flat patch is the same all over it.
+ */
+#include "intersect/exact/place.h"
+
+#include <math.h>
+
+#include "base/real.h"
+#include "geometry/edges.h"
+
+/* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
+enum { ZOOMS = 6 };
+
+/* A root is sharp if it is known so well, as a part of the patch. */
+#define SHARP 0x1p-106
+
+/* ---- along the ray ---- */
+
+/* The product of two doubles is exact in wide arithmetic. */
+static enum place_within on_side(const struct depth *depth, double along, double t, bool after)
+{
+  if (!(fabs(t) < INFINITY)) return (t > 0) == after ? PLACE_OUT : PLACE_IN;
+  const wide bound = (wide)t * along, off = depth->w - bound;
+  if (depth->error > 0 && wide_abs(off) <= depth->error + 4 * WIDE_ROUNDOFF * wide_abs(bound)) return PLACE_UNKNOWN;
+  if (off == 0 && depth->error == 0 && depth->exact) return PLACE_OUT;
+  const bool above = off > 0 || (off == 0 && !depth->exact);
+  return (above == (along > 0)) == after ? PLACE_IN : PLACE_OUT;
+}
+
+enum place_within place_in_range(const struct judge *j, const struct depth *depth)
+{
+  const struct ray *ray = j->asked->ray;
+  const enum place_within start = on_side(depth, j->sight.along, ray->t_min, true);
+  const enum place_within end = on_side(depth, j->sight.along, ray->t_max, false);
+  return start == PLACE_OUT || end == PLACE_OUT ? PLACE_OUT
+         : start == PLACE_IN && end == PLACE_IN ? PLACE_IN
+                                                : PLACE_UNKNOWN;
+}
+
+/* ---- a root's place ---- */
+
+struct placing {
+  struct judge *j;
+  const struct waiting *from;
+  struct piece piece; /* zoomed in */
+  struct piece_root root;
+  bool corner; /* it is exactly in the corner at `at` */
+  unsigned on; /* borders on which it lies */
+  struct depth depth;
+};
+
+static bool zoom(struct piece *piece, const struct piece_root *root, struct pool *pool, struct piece *out)
+{
+  double box[2][2];
+  for (int k = 0; k < 2; k++) box[k][0] = root->at[k] - 16 * root->radius, box[k][1] = root->at[k] + 16 * root->radius;
+  return piece_box(piece, box, pool, out);
+}
+
+/* The corner of the piece that is nearest to the root, if the root may be there and both polynomials are 0 there. */
+static bool in_corner(struct placing *p)
+{
+  const int u = p->root.at[0] >= 0.5, v = p->root.at[1] >= 0.5;
+  if (fabs(p->root.at[0] - u) > p->root.radius || fabs(p->root.at[1] - v) > p->root.radius) return false;
+  if (!piece_corner_root(&p->piece, u, v, &p->j->pool)) return false;
+  const int limbs = p->piece.limbs[NET_W];
+  p->root.at[0] = u, p->root.at[1] = v, p->root.radius = 0, p->corner = true;
+  p->depth.error = 0;
+  p->depth.w = limbs_wide(p->piece.net[NET_W] + (12 * u + 3 * v) * limbs, limbs, p->piece.exponent[NET_W],
+                          &p->depth.exact);
+  return true;
+}
+
+/* Whether the root is the common zero of the two polynomials on that border: then it is exactly there. */
+static bool on_border(const struct placing *p, int border)
+{
+  const struct waiting *from = p->from;
+  wide at;
+  if (from->border >= 0 || !sight_common(&p->j->sight.plane, border, &at)) return false;
+  const int along = border < 2;
+  const wide here = (at - from->piece.low[along]) / from->piece.size[along];
+  return here >= -PIECE_MARGIN / 2 && here <= 1 + PIECE_MARGIN / 2; /* there is one root in all that */
+}
+
+/* Sets p->on. Returns whether the root is in the patch. */
+static enum place_within in_patch(struct placing *p)
+{
+  const int own = p->from->border >= 0 ? p->j->sight.border[p->from->border].border : -1;
+  unsigned unknown = 0;
+  p->on = own >= 0 ? 1u << own : 0;
+  for (int border = 0; border < 4; border++) {
+    if (border == own || !(p->piece.borders >> border & 1)) continue;
+    const double at = p->root.at[border / 2], inside = border & 1 ? 1 - at : at;
+    if (inside < -p->root.radius) return PLACE_OUT;
+    if (inside <= p->root.radius) unknown |= 1u << border;
+  }
+  if (p->corner || (unknown && in_corner(p))) {
+    p->on |= unknown;
+    return PLACE_IN;
+  }
+  for (int border = 0; border < 4; border++)
+    if (unknown >> border & 1 && on_border(p, border)) p->on |= 1u << border, unknown &= ~(1u << border);
+  return unknown ? PLACE_UNKNOWN : PLACE_IN;
+}
+
+static enum place_within in_range(struct placing *p)
+{
+  const enum place_within within = place_in_range(p->j, &p->depth);
+  return within == PLACE_UNKNOWN && !p->corner && in_corner(p) ? place_in_range(p->j, &p->depth) : within;
+}
+
+/* The sign of the quotient (sight.h) next to the root, which is on that border; 0 if that is not known. */
+static int quotient_sign(const struct placing *p, const struct sight_border *border)
+{
+  struct pool *pool = &p->j->pool;
+  const size_t before = pool->used;
+  struct piece off = border->off, part;
+  const int along = border->border < 2, end = border->border & 1;
+  const double here = (double)p->piece.low[along] + p->piece.size[along] * p->root.at[along];
+  double box[2][2];
+  box[along][0] = here - 0x1p-29, box[along][1] = here + 0x1p-29;
+  box[1 - along][0] = end ? 1 - 0x1p-30 : 0, box[1 - along][1] = end ? 1 : 0x1p-30;
+  int positive = 0, negative = 0;
+  if (border->side != 0 && piece_box(&off, box, pool, &part) && piece_exact(&part, pool))
+    for (int c = 0; c < 16; c++)
+      positive += part.value[NET_B][c / 4][c % 4] > 0, negative += part.value[NET_B][c / 4][c % 4] < 0;
+  pool->used = before;
+  return (positive == 16) - (negative == 16);
+}
+
+/* See exact_root.side. Let T be the border's tangent as the ray sees it, and X a point of the patch near to the root. A
+ * regular root has cross(T,X) > 0 if the Jacobian's sign, and the ways in which the border and the way inward run, say
+ * so. On a line through the origin T is the kept polynomial's derivative along the border over its control value, times
+ * that point; and the quotient's sign is that of cross(X, point). */
+static int border_side(const struct placing *p)
+{
+  static const int sense[4] = {-1, 1, 1, -1};
+  const struct sight *sight = &p->j->sight;
+  const int border = __builtin_ctz(p->on);
+  if (p->on & (p->on - 1)) return 0;
+  if (p->from->border < 0) return sense[border] * p->root.turn * sight->flip;
+  const struct sight_border *own = &sight->border[p->from->border];
+  return -sense[border] * p->root.turn * own->side * quotient_sign(p, own);
+}
+
+static struct exact_root found_root(const struct placing *p)
+{
+  struct exact_root out = {.patch = p->j->patch, .borders = p->on};
+  double radius[2];
+  wide at[2];
+  for (int k = 0; k < 2; k++) {
+    at[k] = p->piece.low[k] + (wide)p->piece.size[k] * p->root.at[k];
+    radius[k] = p->piece.size[k] * p->root.radius + (double)(4 * WIDE_ROUNDOFF);
+    const wide first = (at[k] - p->from->piece.low[k]) / p->from->piece.size[k];
+    out.alone[k] = (double)p->from->piece.size[k] * (PIECE_MARGIN + (double)(first < 0.5 ? first : 1 - first));
+    if (p->from->border >= 0 && p->j->sight.border[p->from->border].border / 2 == k) out.alone[k] = 0;
+    for (int end = 0; end < 2; end++)
+      if (p->on >> (2 * k + end) & 1) at[k] = end, radius[k] = 0;
+  }
+  out.u = at[0], out.v = at[1], out.radius_u = radius[0], out.radius_v = radius[1];
+  out.sharp = p->corner || (radius[0] <= SHARP && radius[1] <= SHARP);
+  out.t = p->depth.w / p->j->sight.along;
+  out.t_error = p->depth.error / fabs(p->j->sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(out.t));
+  return out;
+}
+
+void place_root(struct judge *j, const struct waiting *it, const struct piece_root *root)
+{
+  const size_t before = j->pool.used;
+  const bool touched = root->radius == 0;
+  struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
+  for (int zooms = 0;; zooms++) {
+    if (!piece_exact(&p.piece, &j->pool)) {
+      judge_undecided(j, it->near);
+      break;
+    }
+    if (p.corner) p.corner = false, (void)in_corner(&p);
+    else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
+    const enum place_within inside = in_patch(&p), within = inside == PLACE_OUT ? PLACE_OUT : in_range(&p);
+    if (inside == PLACE_OUT || within == PLACE_OUT) break;
+    struct exact_root found = found_root(&p);
+    if (inside == PLACE_IN && within == PLACE_IN && (!p.on || found.sharp)) {
+      if (p.on) found.side = border_side(&p);
+      if (touched && !p.on && j->all)
+        judge_maybe(j, (double)found.u, (double)found.v, (double)found.t, found.t_error, (double)found.t);
+      else judge_root(j, &found);
+      break;
+    }
+    struct piece closer;
+    judge_spend(j, WORK_SIGHT);
+    enum piece_verdict verdict = PIECE_OPEN;
+    if (zooms < ZOOMS && zoom(&p.piece, &p.root, &j->pool, &closer))
+      verdict = piece_root(&closer, true, &j->pool, &p.root);
+    if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
+    if (verdict == PIECE_OPEN) {
+      const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
+      if (within == PLACE_UNKNOWN) judge_undecided(j, from);
+      else judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
+      break;
+    }
+    p.piece = closer;
+  }
+  j->pool.used = before;
+}
+
+/* ---- sharp roots ---- */
+
+/* The part of the patch within `far` of the root in u and v, or within eight times the distance to which its place is
+ * known. False if that is all of it, or there is no room. */
+static bool part_about(struct piece *piece, const struct exact_root *root, const double far[2], struct pool *pool,
+                       struct piece *out)
+{
+  const double at[2] = {(double)root->u, (double)root->v}, radius[2] = {root->radius_u, root->radius_v};
+  double box[2][2];
+  for (int k = 0; k < 2; k++) {
+    const double here = real_max(far[k], 8 * radius[k]);
+    if (!(here < 0.5)) return false;
+    box[k][0] = at[k] - here, box[k][1] = at[k] + here;
+  }
+  return piece_box(piece, box, pool, out);
+}
+
+/* How far from a root the patch is cut, in turns, until the certificate holds: if it is not known how far the root is
+ * alone, or where that does not do. */
+static const double cuts[] = {0x1p-8, 0x1p-20, 0x1p-32, 0x1p-44, 0x1p-56};
+enum { CUTS = sizeof cuts / sizeof *cuts };
+
+bool place_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root)
+{
+  double(*P)[4][3] = model->scene->patches[root->patch].P;
+  limb room[POOL_LIMBS];
+  struct pool pool = {room, POOL_LIMBS, 0};
+  struct sight sight;
+  struct piece piece, closer;
+  struct piece_root found;
+  bool alone = false;
+  if (root->sharp) return true;
+  for (int exchanged = 0; exchanged < 2 && !alone; exchanged++) { /* next to a pole, the pair is exchanged */
+    pool.used = 0;
+    if (!(exchanged ? sight_make(P, ray, &pool, &sight) : sight_plane(P, ray, &pool, &sight))) return false;
+    const size_t before = pool.used;
+    for (int n = root->alone[0] > 0 && root->alone[1] > 0 ? -1 : 0; n < CUTS && !alone; n++) {
+      const double far[2] = {n < 0 ? root->alone[0] : cuts[n], n < 0 ? root->alone[1] : cuts[n]};
+      pool.used = before;
+      alone = part_about(exchanged ? &sight.off : &sight.plane, root, far, &pool, &piece) &&
+              piece_exact(&piece, &pool) && piece_root(&piece, true, &pool, &found) == PIECE_ROOT;
+    }
+  }
+  if (!alone) return false;
+  for (int k = 0; k < 2; k++)
+    root->alone[k] = piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
+  double error;
+  bool exact;
+  for (int n = 0; piece_exact(&piece, &pool); n++) {
+    const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
+    root->sharp = found.radius * real_max(piece.size[0], piece.size[1]) <= SHARP;
+    root->t = w / sight.along;
+    root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
+    if (n == ZOOMS || root->sharp || (!sharpest && root->t_error <= LAST_PLACES * fabs((double)root->t))) break;
+    if (!zoom(&piece, &found, &pool, &closer) || piece_root(&closer, true, &pool, &found) != PIECE_ROOT) break;
+    piece = closer;
+  }
+  wide *at[2] = {&root->u, &root->v};
+  double *radius[2] = {&root->radius_u, &root->radius_v};
+  for (int k = 0; k < 2; k++) {
+    if (root->borders >> (2 * k) & 3) continue;
+    *at[k] = piece.low[k] + (wide)piece.size[k] * found.at[k];
+    *radius[k] = piece.size[k] * found.radius + (double)(4 * WIDE_ROUNDOFF);
+  }
+  return true;
+}
