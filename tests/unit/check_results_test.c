@@ -175,7 +175,7 @@ TEST(what_is_not_there_is_left_out)
   assert_int_equal(check_write(&check, "verdict", &table), STATUS_OK);
   assert_null(drawn);
   expect_json(json_object_get(numbers, "dumped"), "\"no <file>\"");
-  assert_non_null(strstr(page, "of that text, too: no &lt;file&gt;."));
+  assert_non_null(strstr(page, "that text for the first row, too: no &lt;file&gt;."));
   expect_json(json_object_get(numbers, "within_limits"), "false");
   assert_null(strstr(page, "<h2>Hits"));
   assert_null(json_object_get(json_array_get(json_object_get(numbers, "rows"), 0), "distances"));
