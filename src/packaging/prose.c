@@ -40,7 +40,7 @@ static void put_row(FILE *file, char *row)
 
 void write_language(FILE *file, FILE *source)
 {
-  char line[LINE_SIZE];
+  char line[LINE_SIZE], row[LINE_SIZE] = ""; /* row: of a table; dropped if it turns out to be its head */
   bool verbatim = false, item = false;
   fprintf(file,
           ".TH \"PSCN\" 5 \"\" \"pscn %s\" \"pscn\"\n.SH NAME\npscn \\- the scene language of pscn\n.SH DESCRIPTION\n",
@@ -49,7 +49,9 @@ void write_language(FILE *file, FILE *source)
     const size_t indent = strspn(line, " ");
     const bool example = indent >= 4 && !item;
     if (verbatim && !example && line[0] != '\n') fputs(".fi\n", file), verbatim = false;
-    if (strncmp(line, "# ", 2) == 0 || strncmp(line, "|---", 4) == 0 || strncmp(line, "| |", 3) == 0) continue;
+    if (row[0] != '\0' && strncmp(line, "|---", 4) != 0) put_row(file, row);
+    row[0] = '\0';
+    if (strncmp(line, "# ", 2) == 0 || strncmp(line, "|---", 4) == 0) continue;
     if (line[0] == '\n') {
       fputs(verbatim ? "\n" : ".PP\n", file);
       item = false;
@@ -62,7 +64,7 @@ void write_language(FILE *file, FILE *source)
       verbatim = true;
       manual_put(file, line, strlen(line));
     } else if (line[0] == '|') {
-      put_row(file, line);
+      memcpy(row, line, strlen(line) + 1);
     } else {
       if (strncmp(line + indent, "- ", 2) == 0) fputs(".IP \\(bu 2\n", file), item = true;
       fputs("\\&", file);
@@ -70,6 +72,7 @@ void write_language(FILE *file, FILE *source)
       fputc('\n', file);
     }
   }
+  if (row[0] != '\0') put_row(file, row);
   fputs(".SH SEE ALSO\n\\fBpscn\\fR(1),\n\\fBpovray\\fR(1)\n", file);
 }
 
