@@ -305,24 +305,6 @@ limb *piece_combine(const struct piece *piece, struct weight p, struct weight q,
   return out;
 }
 
-bool piece_weigh(const struct piece *piece, const double p[2], struct pool *pool, double out[4][4])
-{
-  limb at[2];
-  struct weight weight[2];
-  int exponent[2], limbs;
-  for (int k = 0; k < 2; k++) {
-    at[k] = (limb)(int64_t)ldexp(frexp(p[k], &exponent[k]), 53);
-    weight[k] = (struct weight){&at[k], 1, 0};
-  }
-  const int apart = (exponent[0] - piece->bits[0]) - (exponent[1] - piece->bits[1]);
-  if (p[0] != 0 && p[1] != 0) weight[0].shift = apart > 0 ? apart : 0, weight[1].shift = apart < 0 ? -apart : 0;
-  const size_t before = pool->used;
-  const limb *net = piece_combine(piece, weight[0], weight[1], pool, &limbs);
-  if (net) (void)net_round(net, limbs, out);
-  pool->used = before;
-  return net;
-}
-
 /* ---- along the ray ---- */
 
 void piece_depths(const struct piece *piece, double *least, double *most)

@@ -134,10 +134,6 @@ struct weight {
 /* The integers' net p a + q b, exponents left aside, in memory of the pool; NULL if there is no room. */
 limb *piece_combine(const struct piece *piece, struct weight p, struct weight q, struct pool *pool, int *out_limbs);
 
-/* The net of p[0] a + p[1] b, where the weights are of `value`, formed exactly, as by net_round. False if there is no
- * room. */
-bool piece_weigh(const struct piece *piece, const double p[2], struct pool *pool, double out[4][4]);
-
 /* The leading bits of the largest coefficient that tests look at, and the bits below, of so many. */
 enum { NET_WINDOW = 62 };
 static inline int net_shift(int bits) { return bits > NET_WINDOW ? bits - NET_WINDOW : 0; }

@@ -38,17 +38,11 @@ static bool positive_but(double net[4][4], int u, int v)
 }
 
 /* Whether a root in the corner (u,v), each 0 or 3, is the only one of the piece, though the Jacobian may vanish there:
- * where a handle has no length, or both tangents are one line. The combinations tried are that which grows alike to both
- * sides, and those that are zero at a neighbouring control point. */
+ * where a handle has no length, or both tangents are one line. The combinations tried are those of a and b that are zero
+ * at a neighbouring control point. */
 static bool corner_alone(struct judge *j, const struct piece *piece, int u, int v)
 {
-  double net[4][4], p[2] = {0, 0};
-  for (int side = 0; side < 2; side++) {
-    const int row = side ? u : 3 - u, column = side ? 3 - v : v;
-    const double x[2] = {piece->value[0][row][column], piece->value[1][row][column]}, length = hypot(x[0], x[1]);
-    for (int k = 0; k < 2; k++) p[k] += length > 0 ? x[k] / length : 0;
-  }
-  if (piece_weigh(piece, p, &j->pool, net) && positive_but(net, u, v)) return true;
+  double net[4][4];
   for (int side = 0; side < 4; side++) {
     const int at = 4 * (side & 1 ? u : u ? 2 : 1) + (side & 1 ? (v ? 2 : 1) : v);
     limb minus[PIECE_LIMBS_MAX];
