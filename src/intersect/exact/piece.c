@@ -315,7 +315,7 @@ void piece_depths(const struct piece *piece, double *least, double *most)
   const double off = high > low ? piece->error[NET_W] : 0;
   low = ldexp(low - off, piece->scale), high = ldexp(high + off, piece->scale);
   /* the start, the sum, and the differences above */
-  const double slack = 2 * UNIT_ROUNDOFF * (2 * fabs(piece->start) + real_max(-low, high));
+  const double slack = 4 * UNIT_ROUNDOFF * (fabs(piece->start) + real_max(-low, high));
   *least = piece->start + low - slack, *most = piece->start + high + slack;
 }
 

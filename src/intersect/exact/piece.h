@@ -40,8 +40,7 @@ struct piece {
   limb from[2], length[2];
   int log2[2];
   /* the piece itself: */
-  wide low[2]; /* it is [low, low + size] of the patch's u and v; low is right to WIDE_ROUNDOFF */
-  double size[2];
+  wide low[2], size[2];     /* it is [low, low + size] of the patch's u and v, to WIDE_ROUNDOFF; exactly above 2^-64 */
   unsigned borders;         /* of the patch, on which the piece's own borders lie: bits as of geometry/edges.h */
   double value[NETS][4][4]; /* nets of a, b and w - start over the piece, times powers of two, at most 1 in size */
   double error[NETS];       /* of value */

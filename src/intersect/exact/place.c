@@ -118,7 +118,7 @@ static int quotient_sign(const struct placing *p, const struct sight_border *bor
   const size_t before = pool->used;
   struct piece off = border->off, part;
   const int along = border->border < 2, end = border->border & 1;
-  const double here = (double)p->piece.low[along] + p->piece.size[along] * p->root.at[along];
+  const double here = (double)(p->piece.low[along] + p->piece.size[along] * p->root.at[along]);
   double box[2][2];
   box[along][0] = here - 0x1p-29, box[along][1] = here + 0x1p-29;
   box[1 - along][0] = end ? 1 - 0x1p-30 : 0, box[1 - along][1] = end ? 1 : 0x1p-30;
@@ -151,8 +151,8 @@ static struct exact_root found_root(const struct placing *p)
   double radius[2];
   wide at[2];
   for (int k = 0; k < 2; k++) {
-    at[k] = p->piece.low[k] + (wide)p->piece.size[k] * p->root.at[k];
-    radius[k] = p->piece.size[k] * p->root.radius + (double)(4 * WIDE_ROUNDOFF);
+    at[k] = p->piece.low[k] + p->piece.size[k] * p->root.at[k];
+    radius[k] = (double)p->piece.size[k] * p->root.radius + (double)(4 * WIDE_ROUNDOFF);
     const wide first = (at[k] - p->from->piece.low[k]) / p->from->piece.size[k];
     out.alone[k] = (double)p->from->piece.size[k] * (PIECE_MARGIN + (double)(first < 0.5 ? first : 1 - first));
     if (p->from->border >= 0 && p->j->sight.border[p->from->border].border / 2 == k) out.alone[k] = 0;
@@ -250,12 +250,12 @@ bool place_sharpen(const struct model *model, const struct ray *ray, bool sharpe
   }
   if (!alone) return false;
   for (int k = 0; k < 2; k++)
-    root->alone[k] = piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
+    root->alone[k] = (double)piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
   double error;
   bool exact;
   for (int n = 0; piece_exact(&piece, &pool); n++) {
     const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
-    root->sharp = found.radius * real_max(piece.size[0], piece.size[1]) <= SHARP;
+    root->sharp = found.radius * (double)wide_max(piece.size[0], piece.size[1]) <= SHARP;
     root->t = w / sight.along;
     root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
     if (n == ZOOMS || root->sharp || (!sharpest && root->t_error <= LAST_PLACES * fabs((double)root->t))) break;
@@ -266,8 +266,8 @@ bool place_sharpen(const struct model *model, const struct ray *ray, bool sharpe
   double *radius[2] = {&root->radius_u, &root->radius_v};
   for (int k = 0; k < 2; k++) {
     if (root->borders >> (2 * k) & 3) continue;
-    *at[k] = piece.low[k] + (wide)piece.size[k] * found.at[k];
-    *radius[k] = piece.size[k] * found.radius + (double)(4 * WIDE_ROUNDOFF);
+    *at[k] = piece.low[k] + piece.size[k] * found.at[k];
+    *radius[k] = (double)piece.size[k] * found.radius + (double)(4 * WIDE_ROUNDOFF);
   }
   return true;
 }

@@ -265,7 +265,7 @@ static bool tangent_box(const double s[4][4], double s_error, const double gradi
   const double error = row->error + most_m * s_error + 16 * UNIT_ROUNDOFF * (most_f + most_m * most_s);
   if (least > error || largest < -error) return false;
   off += error + 16 * UNIT_ROUNDOFF * (fabs(c) + fabs(d) + fabs(k));
-  off_s += s_error + 16 * UNIT_ROUNDOFF * most_s;
+  off_s += s_error + 32 * UNIT_ROUNDOFF * most_s; /* t.along is up to 5 times as large */
   double range[2][2] = {{(-t.value - off_s) / t.along, (-t.value + off_s) / t.along}};
   return square_range(c, d, k, off, range[1]) && cut_box(box, e, range);
 }

@@ -24,7 +24,7 @@ static void set_reach(const struct judge *j, struct waiting *it)
   piece_depths(&it->piece, &least, &most);
   const double one = least / j->sight.along, two = most / j->sight.along;
   it->near = real_min(one, two), it->far = real_max(one, two);
-  it->near -= 2 * UNIT_ROUNDOFF * fabs(it->near), it->far += 2 * UNIT_ROUNDOFF * fabs(it->far);
+  it->near -= 4 * UNIT_ROUNDOFF * fabs(it->near), it->far += 4 * UNIT_ROUNDOFF * fabs(it->far);
 }
 
 /* ---- corners ---- */
@@ -78,8 +78,8 @@ static bool decide_corner(struct judge *j, struct waiting *it)
 /* Tells of a point of a piece that is left undecided. */
 static void tell_open(struct judge *j, const struct waiting *it)
 {
-  const double u = real_clamp((double)(it->piece.low[0] + (wide)it->piece.size[0] / 2), 0, 1);
-  const double v = real_clamp((double)(it->piece.low[1] + (wide)it->piece.size[1] / 2), 0, 1);
+  const double u = real_clamp((double)(it->piece.low[0] + it->piece.size[0] / 2), 0, 1);
+  const double v = real_clamp((double)(it->piece.low[1] + it->piece.size[1] / 2), 0, 1);
   judge_maybe(j, u, v, it->near / 2 + it->far / 2, it->far / 2 - it->near / 2, it->near);
 }
 
@@ -138,14 +138,15 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
   double at[2], far = 0;
   bool side[2][2];
   for (int k = 0; k < 2; k++) {
-    const wide low = piece->low[k] + box[k][0] * (wide)piece->size[k],
-               high = piece->low[k] + box[k][1] * (wide)piece->size[k];
+    const wide low = piece->low[k] + box[k][0] * piece->size[k], high = piece->low[k] + box[k][1] * piece->size[k];
     at[k] = ldexp(rint(ldexp((double)low / 2 + (double)high / 2, SIMPLE_BITS)), -SIMPLE_BITS);
     side[k][0] = low < at[k], side[k][1] = at[k] < high;
     if (low > at[k] || at[k] > high) return 0;
     far = real_max(far, real_max((double)(at[k] - low), (double)(high - at[k])));
   }
-  if ((side[0][0] && side[0][1]) + (side[1][0] && side[1][1]) == 0 || far >= ldexp(1, -SIMPLE_BITS - 4)) return 0;
+  if ((side[0][0] && side[0][1]) + (side[1][0] && side[1][1]) == 0) return 0;
+  if (far >= ldexp(1, -SIMPLE_BITS - 4) || far < LEAST_SIZE)
+    return 0; /* low and high are exact, but for a box's slack */
   int exponent, count = 0;
   (void)frexp(far, &exponent);
   const int log2 = exponent < -BOX_BITS ? BOX_BITS : -exponent;
