@@ -89,8 +89,8 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
     said[k] = (struct chart_point){.family = sweep[k].family, .ours = true, .options = sweep[k].options};
     method_text(&sweep[k].options, said[k].name, sizeof said[k].name);
     if (chart->point_count + k == 0) strcpy(said[k].label, "default");
-    else if (chart->request->solver_count > 0)
-      snprintf(said[k].label, sizeof said[k].label, "%s", sweep[k].options.roots.solver->name);
+    else if (chart->request->solver_count > 0 && strstr(said[k].name, "form paper") != NULL)
+      snprintf(said[k].label, sizeof said[k].label, "%g", sweep[k].options.roots.tolerance);
   }
   if (status == STATUS_OK) status = chart_measure(chart, count, runners, said, yard);
   for (int kind = 0; kind < RAY_KINDS && status == STATUS_OK; kind++)

@@ -56,7 +56,7 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
                    struct judgement *out)
 {
   double *all = errors + count;
-  size_t both = 0, asked = 0;
+  size_t right = 0, asked = 0;
   *out = (struct judgement){.rays = count};
   for (size_t k = 0; k < count; k++) {
     const struct truth *truth = &truths[k];
@@ -81,14 +81,14 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
     out->wrong += wrong;
     const bool other_patch = answers[k].patch != ANSWER_PATCH_UNKNOWN && answers[k].patch != truth->patch;
     out->other_patch += !wrong && other_patch && !truth->shared;
-    errors[both++] = error;
+    if (!wrong) errors[right++] = error;
     all[asked++] = wrong ? 1 : error;
   }
-  sort_numbers(errors, both);
+  sort_numbers(errors, right);
   sort_numbers(all, asked);
-  out->median = both == 0 ? NAN : sorted_quantile(errors, both, 0.5);
-  out->p99 = both == 0 ? NAN : sorted_quantile(errors, both, 0.99);
-  out->max = both == 0 ? NAN : errors[both - 1];
+  out->median = right == 0 ? NAN : sorted_quantile(errors, right, 0.5);
+  out->p99 = right == 0 ? NAN : sorted_quantile(errors, right, 0.99);
+  out->max = right == 0 ? NAN : errors[right - 1];
   out->p99_of_all = out->hits == 0 ? NAN : sorted_quantile(all, asked, 0.99);
 }
 

@@ -41,7 +41,7 @@ struct judgement {
   size_t invented;              /* a miss answered by a hit */
   size_t wrong;                 /* a hit answered by one with a larger error than JUDGE_WRONG */
   size_t other_patch;           /* the right place, but on a wrong patch */
-  /* relative errors of T for the rays that both hit; p99: 99 % have at most this; NAN if there are none */
+  /* relative errors of T of the right answers to rays that hit; p99: 99 % have at most this; NAN if there are none */
   double median, p99, max;
   /* the same with every lost, invented or wrong answer as an error of 1; NAN if there is nothing to hit */
   double p99_of_all;

@@ -21,12 +21,12 @@ static enum status ask_rivals(struct chart *chart)
   struct {
     const char *name, *label;
     rival_seek *seek;
-  } ways[] = {{"Newton from the middle", "N", rival_newton},
-              {"Bezier clipping", "C", rival_clipping},
-              {"interval Newton with Krawczyk's test", "K", rival_krawczyk},
-              {"subdivision", "S", rival_subdivision},
-              {"companion matrix by dhseqr", "E", NULL},
-              {"Bezout's pencil by dggev", "P", NULL}};
+  } ways[] = {{"Newton from the middle", "Newton", rival_newton},
+              {"Bezier clipping", "clipping", rival_clipping},
+              {"interval Newton with Krawczyk's test", "Krawczyk", rival_krawczyk},
+              {"subdivision", "subdivision", rival_subdivision},
+              {"companion matrix by dhseqr", "companion", NULL},
+              {"Bezout's pencil by dggev", "pencil", NULL}};
   enum { WAYS = sizeof ways / sizeof ways[0], EIGEN = 4 };
   void *handle = module_open(RIVAL_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   for (int k = EIGEN; handle != NULL && k < WAYS; k++)

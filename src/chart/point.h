@@ -24,7 +24,7 @@ enum { POINT_NAME_SIZE = 160 };
 struct chart_point {
   enum family family;
   char name[POINT_NAME_SIZE]; /* what was run; for pscn, the text behind `solver` */
-  char label[12];             /* the text beside the point in the figure, or "" */
+  char label[16];             /* the text beside the point in the figure, or "" */
   bool ours;                  /* options is set */
   struct method options;
   struct timing time[RAY_KINDS];

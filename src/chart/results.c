@@ -13,53 +13,58 @@
 
 /* ---- the figure ---- */
 
-/* Smaller errors are drawn as this: 0 has no place on a logarithmic axis. */
+/* An error, or a share of wrong answers, below this is drawn as this: 0 has no place on a logarithmic axis. */
 #define LEAST_ERROR 1e-17
+#define LEAST_SHARE 1e-4
 
-/* Labels nearer than this, in powers of ten across and up, would overlap; and the width of a digit. */
-#define LABEL_NEAR_X 0.5
-#define LABEL_NEAR_Y 0.06
-#define LABEL_WIDTH 0.3
-
-static const struct look {
-  const char *title, *color;
-  int symbol, hollow; /* gnuplot's point types: for points with all answers right, and with some wrong */
-} LOOKS[FAMILIES] = {
-  [FAMILY_DEFAULT] = {"bernstein (default)", "#c02020", 7, 6},
-  [FAMILY_NEWTON] = {"newton", "#2b6cb0", 9, 8},
-  [FAMILY_LAGUERRE] = {"laguerre", "#2f855a", 11, 10},
-  [FAMILY_ABERTH] = {"aberth", "#b7791f", 13, 12},
-  [FAMILY_PAPER] = {"as in the paper", "#718096", 15, 14},
-  [FAMILY_OTHER] = {"durand\\\\_kerner", "#9d174d", 15, 14},
-  [FAMILY_RIVAL] = {"rivals, scalar", "#000000", 7, 6},
-  [FAMILY_EMBREE] = {"Embree (triangles a side)", "#6b46c1", 5, 4},
-  [FAMILY_POVRAY] = {"POV-Ray (u\\\\_steps)", "#0891b2", 5, 4},
+/* Colour tells the solver, shape the form. */
+struct look {
+  const char *title;
+  int value; /* 0xRRGGBB, or gnuplot's point type */
 };
 
+enum { RIVALS = 5, EMBREE, POVRAY, COLORS };
+
+static const struct look COLOR[COLORS] = {
+  {"bernstein (default)", 0xc02020}, {"newton", 0x2b6cb0}, {"laguerre", 0x2f855a}, {"aberth", 0xb7791f},
+  {"durand_kerner", 0x9d174d},       {"rivals", 0x000000}, {"Embree", 0x6b46c1},   {"POV-Ray", 0x0891b2}};
+
+enum shape { LEAVES, WHOLE, UNPOLISHED, PAPER, SCALAR, TRIANGLES, STEPS, SHAPES };
+
+static const struct look SHAPE[SHAPES] = {
+  [LEAVES] = {"leaves, polish", 7},  [WHOLE] = {"whole patches, polish", 5},
+  [UNPOLISHED] = {"polish off", 9},  [PAPER] = {"form paper, by tolerance", 12},
+  [SCALAR] = {"rivals, scalar", 13}, [TRIANGLES] = {"triangles a side, 8 rays", 6},
+  [STEPS] = {"u_steps, type 1", 4}};
+
+static int color_of(const struct chart_point *point)
+{
+  if (!point->ours) return point->family == FAMILY_RIVAL ? RIVALS : point->family == FAMILY_EMBREE ? EMBREE : POVRAY;
+  int color = 0;
+  while (color + 1 < RIVALS &&
+         strncmp(COLOR[color].title, point->options.roots.solver->name, strlen(point->options.roots.solver->name)) != 0)
+    color++;
+  return color;
+}
+
+static enum shape shape_of(const struct chart_point *point)
+{
+  if (!point->ours) return (enum shape)(SCALAR + color_of(point) - RIVALS);
+  if (strstr(point->name, "form paper") != NULL) return PAPER;
+  if (!point->options.polish) return UNPOLISHED;
+  return point->options.split == 1 ? WHOLE : LEAVES;
+}
+
+/* Of a peer that is measured in several ways, only that with labels is drawn. */
 static bool drawn(const struct chart_point *point)
 {
-  return isfinite(point->time[RAYS_CAMERA].median) && isfinite(point->camera.p99_of_all);
+  return isfinite(point->time[RAYS_CAMERA].median) && (point->ours || point->label[0] != '\0');
 }
 
-static bool all_right(const struct chart_point *point)
+static double share_of_wrong(const struct judgement *camera)
 {
-  return point->camera.lost + point->camera.invented + point->camera.wrong == 0;
-}
-
-static double error_of(const struct chart_point *point) { return fmax(point->camera.p99_of_all, LEAST_ERROR); }
-
-/* The place of a point's label: at the point, or right of the earlier labels that are there. */
-static double label_place(const struct chart *chart, size_t index)
-{
-  const struct chart_point *point = &chart->points[index];
-  double place = log10(error_of(point));
-  for (size_t k = 0; k < index; k++) {
-    const struct chart_point *other = &chart->points[k];
-    if (drawn(other) && other->label[0] != '\0' && fabs(log10(error_of(other) / error_of(point))) < LABEL_NEAR_X &&
-        fabs(log10(other->time[RAYS_CAMERA].median / point->time[RAYS_CAMERA].median)) < LABEL_NEAR_Y)
-      place += LABEL_WIDTH;
-  }
-  return pow(10, place);
+  const size_t wrong = camera->lost + camera->invented + camera->wrong, decided = camera->rays - camera->undecided;
+  return wrong == 0 ? LEAST_SHARE : fmax((double)wrong / (double)decided, LEAST_SHARE);
 }
 
 static json_t *time_value(const struct timing *time)
@@ -92,7 +97,7 @@ static json_t *point_value(const struct chart *chart, size_t index)
   const struct judgement *camera = &point->camera;
   json_t *time = time_value(&point->time[RAYS_CAMERA]), *shadow_time = time_value(&point->time[RAYS_SHADOW]);
   return json_pack(
-    "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "family",
+    "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i}", "family",
     family_name(point->family), "name", point->name, "label", point->label, "front", point->front, "time", time,
     "times", time, shadow_time, "shadow_ns", page_of_number(point->time[RAYS_SHADOW].median), "t_median",
     page_of_number(camera->median), "t_99", page_of_number(camera->p99), "t_max", page_of_number(camera->max),
@@ -100,70 +105,32 @@ static json_t *point_value(const struct chart *chart, size_t index)
     json_count(camera->hits), "undecided", json_count(camera->undecided), "lost", json_count(camera->lost), "invented",
     json_count(camera->invented), "wrong", json_count(camera->wrong), "other_patch", json_count(camera->other_patch),
     "shadow", point->has_shadow ? shadow_value(&point->shadow) : json_null(), "method",
-    point->ours ? method_value(&point->options) : json_null(), "error", page_of_number(error_of(point)), "label_at",
-    page_of_number(label_place(chart, index)));
+    point->ours ? method_value(&point->options) : json_null(), "error",
+    page_of_number(isfinite(camera->p99) ? fmax(camera->p99, LEAST_ERROR) : NAN), "share",
+    page_of_number(share_of_wrong(camera)), "color", COLOR[color_of(point)].value, "symbol",
+    SHAPE[shape_of(point)].value);
 }
 
-/* The points of a family that are all right, or that are not, with their look. JSON's null if there are none, NULL if
- * memory is short. */
-static json_t *set_value(const struct chart *chart, const json_t *points, enum family family, bool right, bool titled)
+/* The looks in use, for the legend. */
+static json_t *legend(const struct look looks[], size_t count, const bool used[])
 {
   json_t *list = json_array();
+  for (size_t k = 0; k < count; k++)
+    if (used[k]) list = json_append(list, json_pack("{s:s,s:i}", "title", looks[k].title, "look", looks[k].value));
+  return list;
+}
+
+static json_t *figure_value(const struct chart *chart, const json_t *points)
+{
+  bool color[COLORS] = {false}, shape[SHAPES] = {false};
+  json_t *list = json_array();
   for (size_t k = 0; k < chart->point_count; k++) {
-    const struct chart_point *point = &chart->points[k];
-    if (point->family == family && drawn(point) && all_right(point) == right)
-      list = json_append(list, json_incref(json_array_get(points, k)));
+    if (!drawn(&chart->points[k])) continue;
+    color[color_of(&chart->points[k])] = shape[shape_of(&chart->points[k])] = true;
+    list = json_append(list, json_incref(json_array_get(points, k)));
   }
-  if (list != NULL && json_array_size(list) == 0) {
-    json_decref(list);
-    return json_null();
-  }
-  const struct look *look = &LOOKS[family];
-  return json_pack("{s:o,s:s,s:i,s:o,s:o}", "id", json_sprintf("family%d%d", (int)family, right), "color", look->color,
-                   "symbol", right ? look->symbol : look->hollow, "title",
-                   titled ? json_string(look->title) : json_null(), "points", list);
-}
-
-static json_t *sets_value(const struct chart *chart, const json_t *points)
-{
-  json_t *sets = json_array();
-  for (int family = 0; family < FAMILIES; family++) {
-    bool titled = true;
-    for (int right = 1; right >= 0; right--) {
-      json_t *set = set_value(chart, points, (enum family)family, right != 0, titled);
-      titled = titled && json_is_null(set);
-      if (!json_is_null(set)) sets = json_append(sets, set);
-    }
-  }
-  return sets;
-}
-
-static int by_error(const void *a, const void *b)
-{
-  const struct chart_point *const *p = a, *const *q = b;
-  const double x = (*p)->camera.p99_of_all, y = (*q)->camera.p99_of_all;
-  return (x > y) - (x < y);
-}
-
-/* The front from the most exact to the fastest point, step by step: steps between points that are all right, and
- * others. */
-static json_t *front_value(const struct chart *chart)
-{
-  const struct chart_point **front = calloc(chart->point_count + 1, sizeof *front);
-  size_t count = 0;
-  if (front == NULL) return NULL;
-  json_t *lists[2] = {json_array(), json_array()};
-  for (size_t k = 0; k < chart->point_count; k++)
-    if (chart->points[k].front) front[count++] = &chart->points[k];
-  qsort(front, count, sizeof *front, by_error);
-  for (size_t k = 0; k + 1 < count; k++) {
-    const bool right = all_right(front[k]) && all_right(front[k + 1]);
-    json_t *step = json_pack("{s:f,s:f,s:f,s:f}", "x1", error_of(front[k]), "y1", front[k]->time[RAYS_CAMERA].median,
-                             "x2", error_of(front[k + 1]), "y2", front[k + 1]->time[RAYS_CAMERA].median);
-    lists[right] = json_append(lists[right], step);
-  }
-  free(front);
-  return json_pack("{s:o,s:o}", "pale_steps", lists[0], "steps", lists[1]);
+  return json_pack("{s:o,s:o,s:o}", "drawn", list, "colors", legend(COLOR, COLORS, color), "shapes",
+                   legend(SHAPE, SHAPES, shape));
 }
 
 /* ---- the page ---- */
@@ -179,16 +146,15 @@ static json_t *make_values(const struct chart *chart)
   }
   for (size_t k = 0; k < chart->note_count; k++)
     notes = json_append(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k])));
-  json_t *root = json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:o,s:[{s:b,s:o},{s:b,s:o}]}",
-                           "scene", page_of_file(request->path), "width", json_count(request->width), "height",
-                           json_count(request->height), "rays", json_count(chart->rays[RAYS_CAMERA].count), "shadows",
-                           json_count(chart->rays[RAYS_SHADOW].count), "rounds", json_count(chart->rounds), "undecided",
-                           json_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH,
-                           "strip_height", (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]),
-                           "yard_most", page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes,
-                           "first", first, "points", points, "sets", sets_value(chart, points), "tables", "all", 0,
-                           "points", first, "all", 1, "points", points);
-  return json_join(json_join(root, front_value(chart)), page_of_head(request->command_line));
+  json_t *root = json_pack(
+    "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:[{s:b,s:o},{s:b,s:o}]}", "scene",
+    page_of_file(request->path), "width", json_count(request->width), "height", json_count(request->height), "rays",
+    json_count(chart->rays[RAYS_CAMERA].count), "shadows", json_count(chart->rays[RAYS_SHADOW].count), "rounds",
+    json_count(chart->rounds), "undecided", json_count(chart->points[0].camera.undecided), "strip_width",
+    (int)STRIP_WIDTH, "strip_height", (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]),
+    "yard_most", page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes, "first", first,
+    "points", points, "tables", "all", 0, "points", first, "all", 1, "points", points);
+  return json_join(json_join(root, figure_value(chart, points)), page_of_head(request->command_line));
 }
 
 enum { CSV, SVG, PAGE, FILES = CHART_FILES };

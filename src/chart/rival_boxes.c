@@ -54,6 +54,12 @@ enum verdict { NO_ROOT, ONE_ROOT, OPEN };
 /* Judges a box; *root is a root in it, in its parameters. */
 typedef enum verdict judge_box(struct box *box, struct rival_root *root);
 
+/* Boxes on either side of a root's box may keep it, too. */
+static bool same(const struct rival_root *x, const struct rival_root *y)
+{
+  return fabs(x->u - y->u) < 16 * SMALLEST && fabs(x->v - y->v) < 16 * SMALLEST;
+}
+
 static int search(double a[4][4], double b[4][4], judge_box *judge, struct rival_root out[RIVAL_ROOTS])
 {
   struct box stack[WAITING];
@@ -66,8 +72,10 @@ static int search(double a[4][4], double b[4][4], judge_box *judge, struct rival
     const enum verdict verdict = excluded(box->a) || excluded(box->b)            ? NO_ROOT
                                  : fmax(box->width[0], box->width[1]) < SMALLEST ? ONE_ROOT
                                                                                  : judge(box, &root);
-    if (verdict == ONE_ROOT)
-      out[count++] = (struct rival_root){box->u + root.u * box->width[0], box->v + root.v * box->width[1]};
+    if (verdict == ONE_ROOT) {
+      root.u = box->u + root.u * box->width[0], root.v = box->v + root.v * box->width[1];
+      if (count == 0 || !same(&root, &out[count - 1])) out[count++] = root;
+    }
     if (verdict != OPEN || top == WAITING) top--;
     else halve(box, box->width[0] < box->width[1], &stack[top]), top++;
   }

@@ -103,9 +103,8 @@ const struct command command_chart = {
     "in the paper; by rival methods (Newton, clipping, boxes, eigenvalues); by Embree on triangles and by POV-Ray, if "
     "they\n"
     "are installed. All take turns on one thread. A reference in quadruple precision, which shares nothing with them,\n"
-    "finds the errors. DIR receives chart.csv with every point, chart.svg with the Pareto front (drawn by gnuplot), "
-    "and\n"
-    "the self-contained chart.html. Standard output has the front. Solver statements of the scene are ignored; with\n"
+    "finds the errors. DIR receives chart.csv with every point, chart.svg (drawn by gnuplot) and the self-contained\n"
+    "chart.html. Standard output has the Pareto front. Solver statements of the scene are ignored; with\n"
     "--solver only the named solvers and the default are charted.\n",
   .options = OPTIONS,
   .run = run,

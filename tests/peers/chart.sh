@@ -19,7 +19,7 @@ grep -q 'Embree is left out: there is no' "$folder/said" || peers+=(embree)
 failed=0
 # The figure, if gnuplot drew one: the default is labelled, and pointing at a symbol shows its name.
 if [ -e "$folder/chart/chart.svg" ]; then
-  for text in '>default<' '<title>bernstein: [0-9.]* ns, error [0-9.e-]*</title>' '>7</tspan>' '</svg>'; do
+  for text in '>default<' '<title>bernstein: [0-9.]* ns, error [0-9.e-]*</title>' '<text>7</text>' '</svg>'; do
     grep -q "$text" "$folder/chart/chart.svg" || { echo "the figure has no $text"; failed=1; }
   done
 fi

@@ -1,8 +1,9 @@
-/* The chart's figure: which points stand together under which look and title, the steps of the front, and the places
- * of labels. The values are taken where gnuplot would draw them. And memory that jansson does not get. */
+/* The chart's figure: which points it has, where, and in which look. The values are taken where gnuplot would draw them.
+ * And memory that jansson does not get. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "chart/work.h"
 #include "page/page.h"
@@ -25,7 +26,8 @@ enum status __wrap_page_write(const struct listener *listener, size_t count, cha
 
 static struct chart_point point(enum family family, double ns, double error, size_t wrong, const char *label)
 {
-  struct chart_point p = {.family = family, .camera = {.hits = 10, .wrong = wrong, .p99_of_all = error}};
+  struct chart_point p = {.family = family,
+                          .camera = {.rays = 100, .hits = 10, .wrong = wrong, .p99 = error, .p99_of_all = error}};
   p.time[RAYS_CAMERA].median = ns;
   snprintf(p.label, sizeof p.label, "%s", label);
   return p;
@@ -60,7 +62,7 @@ TEST(numbers_are_in_their_place)
                                   .name = "aberth",
                                   .ours = true,
                                   .time = {{1, 2, 3, 4, 5, 6}, {11, 12, 13, 14, 15, 16}},
-                                  .camera = {21, 22, 23, 24, 25, 26, 27, 0.5, 0.25, NAN, 0.125},
+                                  .camera = {122, 22, 23, 24, 25, 26, 27, 0.5, 0.25, NAN, 0.125},
                                   .shadow = {.rays = 31, .undecided = 32, .hits = 33, .lost = 34, .invented = 35},
                                   .has_shadow = true},
                                  point(FAMILY_EMBREE, 1, 0.5, 0, "8")};
@@ -70,11 +72,13 @@ TEST(numbers_are_in_their_place)
   json_t *values = figure_of(points, 2), *all = json_object_get(values, "points");
   expect_json(
     json_array_get(all, 0),
-    "{\"error\":0.125,\"family\":\"aberth\",\"front\":false,\"hits\":23,\"invented\":25,\"label\":\"\","
-    "\"label_at\":0.125,\"lost\":24,\"method\":{\"basis\":\"power\",\"polish\":\"off\",\"solver\":\"aberth\","
-    "\"split\":\"3\",\"start\":\"cold\",\"tolerance\":0.5},\"name\":\"aberth\",\"other_patch\":27,\"rays\":21,"
+    "{\"color\":12024095,\"error\":0.25,\"family\":\"aberth\",\"front\":false,\"hits\":23,\"invented\":25,\"label\":"
+    "\"\","
+    "\"lost\":24,\"method\":{\"basis\":\"power\",\"polish\":\"off\",\"solver\":\"aberth\","
+    "\"split\":\"3\",\"start\":\"cold\",\"tolerance\":0.5},\"name\":\"aberth\",\"other_patch\":27,\"rays\":122,"
     "\"shadow\":{\"hits\":33,\"invented\":35,\"lost\":34,\"rays\":31,\"undecided\":32},\"shadow_ns\":13.0,"
-    "\"t_99\":0.25,\"t_99_of_all\":0.125,\"t_max\":null,\"t_median\":0.5,\"time\":{\"least\":1.0,\"lower\":2.0,"
+    "\"share\":0.75,\"symbol\":9,\"t_99\":0.25,\"t_99_of_all\":0.125,\"t_max\":null,\"t_median\":0.5,\"time\":{"
+    "\"least\":1.0,\"lower\":2.0,"
     "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},\"times\":[{\"least\":1.0,\"lower\":2.0,"
     "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},{\"least\":11.0,\"lower\":12.0,\"median\":13.0,"
     "\"most\":15.0,\"ratio\":16.0,\"upper\":14.0}],\"undecided\":22,\"wrong\":26}");
@@ -95,58 +99,41 @@ TEST(numbers_are_in_their_place)
 
 static double number(const json_t *from, const char *key) { return json_number_value(json_object_get(from, key)); }
 
-/* The points of a family that are all right come first, with its title. The others are hollow, and have the title only
- * if there are no such points. */
-TEST(each_family_is_titled_once)
+/* Colour tells the solver, shape the form; the legend has those in use. A point without a time, or of a peer without a
+ * label, is not drawn. An error of 0 is drawn as the least; where no answer is right there is none. */
+TEST(points_have_their_looks)
 {
-  struct chart_point points[] = {point(FAMILY_DEFAULT, 100, 1e-15, 0, ""), point(FAMILY_DEFAULT, 90, 1, 1, ""),
-                                 point(FAMILY_NEWTON, 120, 1, 3, ""),      point(FAMILY_LAGUERRE, NAN, 1e-15, 0, ""),
-                                 point(FAMILY_DEFAULT, 80, 1e-9, 0, ""),   point(FAMILY_EMBREE, 50, 1e-9, 0, "")};
-  points[5].camera.invented = 1;
-  const struct {
-    const char *title;
-    int symbol, count;
-  } expected[] = {{"bernstein (default)", 7, 2}, {NULL, 6, 1}, {"newton", 8, 1}, {"Embree (triangles a side)", 4, 1}};
-  json_t *values = figure_of(points, 6), *sets = json_object_get(values, "sets");
-  assert_int_equal(json_array_size(sets), 4);
-  for (size_t k = 0; k < 4; k++) {
-    const json_t *set = json_array_get(sets, k), *title = json_object_get(set, "title");
-    if (expected[k].title == NULL) assert_true(json_is_null(title));
-    else assert_string_equal(json_string_value(title), expected[k].title);
-    assert_true(number(set, "symbol") == expected[k].symbol);
-    assert_int_equal(json_array_size(json_object_get(set, "points")), expected[k].count);
+  struct chart_point points[] = {point(FAMILY_DEFAULT, 100, 0, 0, ""),       point(FAMILY_NEWTON, 90, 1e-9, 1, ""),
+                                 point(FAMILY_PAPER, 120, NAN, 100, "0.01"), point(FAMILY_EMBREE, 50, 1e-5, 0, "8"),
+                                 point(FAMILY_EMBREE, 60, 1e-5, 0, ""),      point(FAMILY_LAGUERRE, NAN, 1e-5, 0, "")};
+  static const char *const solver[] = {"bernstein", "newton", "laguerre"};
+  for (int k = 0; k < 3; k++) {
+    points[k].ours = true;
+    method_default(solver_find(solver[k], strlen(solver[k])), &points[k].options);
   }
-  json_decref(values);
-}
-
-/* From the most exact point to the fastest; pale if one of the two is not all right. */
-TEST(steps_join_the_front)
-{
-  struct chart_point points[] = {point(FAMILY_NEWTON, 10, 0.1, 1, ""), point(FAMILY_DEFAULT, 100, 0, 0, ""),
-                                 point(FAMILY_ABERTH, 70, 1e-12, 0, ""), point(FAMILY_EMBREE, 50, 1e-5, 0, "")};
-  points[0].front = points[1].front = points[3].front = true;
-  json_t *values = figure_of(points, 4);
-  const json_t *steps = json_object_get(values, "steps"), *pale = json_object_get(values, "pale_steps");
-  assert_true(json_array_size(steps) == 1 && json_array_size(pale) == 1);
-  const json_t *first = json_array_get(steps, 0), *second = json_array_get(pale, 0);
-  assert_true(number(first, "x1") == 1e-17 && number(first, "y1") == 100); /* the axis has no place for an error of 0 */
-  assert_true(number(first, "x2") == 1e-5 && number(first, "y2") == 50);
-  assert_true(number(second, "x1") == 1e-5 && number(second, "x2") == 0.1);
-  json_decref(values);
-}
-
-/* A label that would overlap an earlier one moves to the right; if that place is taken, too, farther. */
-TEST(labels_make_way)
-{
-  struct chart_point points[] = {point(FAMILY_EMBREE, 100, 1e-5, 0, "16"),  point(FAMILY_EMBREE, 101, 1e-5, 0, ""),
-                                 point(FAMILY_EMBREE, 102, 1e-5, 0, "32"),  point(FAMILY_EMBREE, 104, 1e-5, 0, "64"),
-                                 point(FAMILY_EMBREE, 150, 1e-5, 0, "128"), point(FAMILY_EMBREE, 100, 1e-4, 0, "256")};
-  const double places[] = {-5, -4.7, -4.7, -4.4, -5, -4};
+  points[1].options.split = 1;
+  snprintf(points[2].name, sizeof points[2].name, "laguerre { form paper }");
   json_t *values = figure_of(points, 6);
-  for (size_t k = 0; k < 6; k++) {
-    const json_t *value = json_array_get(json_object_get(values, "points"), k);
-    assert_true(fabs(log10(number(value, "label_at")) - places[k]) < 1e-9);
+  const json_t *list = json_object_get(values, "drawn");
+  const struct {
+    double error, share;
+    int color, symbol;
+  } expected[] = {
+    {1e-17, 1e-4, 0xc02020, 7}, {1e-9, 0.01, 0x2b6cb0, 5}, {0, 1, 0x2f855a, 12}, {1e-5, 1e-4, 0x6b46c1, 6}};
+  assert_int_equal(json_array_size(list), 4);
+  for (size_t k = 0; k < 4; k++) {
+    const json_t *value = json_array_get(list, k), *error = json_object_get(value, "error");
+    assert_true(expected[k].error == 0 ? json_is_null(error) : json_number_value(error) == expected[k].error);
+    assert_true(number(value, "share") == expected[k].share);
+    assert_true(number(value, "color") == expected[k].color && number(value, "symbol") == expected[k].symbol);
   }
+  expect_json(json_object_get(values, "colors"),
+              "[{\"look\":12591136,\"title\":\"bernstein (default)\"},{\"look\":2845872,\"title\":\"newton\"},"
+              "{\"look\":3114330,\"title\":\"laguerre\"},{\"look\":7030465,\"title\":\"Embree\"}]");
+  expect_json(
+    json_object_get(values, "shapes"),
+    "[{\"look\":7,\"title\":\"leaves, polish\"},{\"look\":5,\"title\":\"whole patches, polish\"},"
+    "{\"look\":12,\"title\":\"form paper, by tolerance\"},{\"look\":6,\"title\":\"triangles a side, 8 rays\"}]");
   json_decref(values);
 }
 
