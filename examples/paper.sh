@@ -4,7 +4,8 @@
 #
 #   examples/paper.sh             everything
 #   examples/paper.sh PART...     only these, with the programs as they are built: curves random claims patch pictures ways
-#                                 causes teapot page; the last makes the figures and the page of the CSV files as they are
+#                                 field causes teapot page; the last makes the figures and the page of the CSV files as
+#                                 they are
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -25,7 +26,8 @@ build() {
   cmake --build build --target pscn random_experiments patch_experiments picture_errors footing claims >/dev/null
 }
 
-# Fig 1: eq 3 of a ray with three hits, and the common roots on the patch.
+# Fig 1: eq 3 of a ray with three hits, and the common roots on the patch. And the roots of r for a ray that Aberth's
+# method loses: that of the hit, and the nearest other one.
 curves() {
   ray='3.5 4 -8.5 -0.55341152527134552 -0.34365070520881941 0.75870934916232857'
   echo "$ray" | "$pscn" trace scenes/paper.pscn --explain --solver 'aberth { form paper tolerance 1e-12 max_iterations 500 }' |
@@ -33,10 +35,16 @@ curves() {
       $1 == "a:" || $1 == "b:" { for (k = 0; k < 16; k++) printf "%s,%d,%d,%s\n", substr($1, 1, 1), k / 4, k % 4, $(k + 2) }
       /, T = / { sub(/,/, "", $3); v = $0; sub(/.*, v = /, "", v); sub(/,.*/, "", v); printf "root,%s,%s,\n", $3, v }' |
     keep fig01.csv
+  echo '3.5 4 -8.5 -2.3 -3.488 7.5' | "$pscn" trace scenes/paper.pscn --explain --solver 'aberth { form paper tolerance 1e-12 max_iterations 500 }' |
+    awk 'BEGIN { print "root,u,v" }
+      / v = / { v = $0; sub(/.* v = /, "", v); sub(/[ ,].*/, "", v); u[++n] = $3; at[n] = v; if (/, T = /) hit = n }
+      END { for (k = 1; k <= n; k++) { gap = u[k] - u[hit]; gap = gap < 0 ? -gap : gap; if (k != hit && (!other || gap < least)) { least = gap; other = k } }
+        printf "hit,%s,%s\nother,%s,%s\n", u[hit], at[hit], u[other], at[other] }' | keep projected.csv
 }
 
 # Fig 2-12, the improvements, the cap of steps: random polynomials. Fig 2, 4, 5, 9 on an equal footing.
 random() {
+  { echo model; sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -1; } | keep machine.csv
   for experiment in degrees tolerances order improvements caps; do
     echo "$experiment"
     "$programs/random_experiments" "$experiment" | keep "$experiment.csv"
@@ -114,11 +122,32 @@ ways() {
   rm "$data"/unused*
 }
 
+# Rays within 7 degrees of the axis of a height field, where the true degree of r is lower: how many hits are found.
+field() {
+  awk 'function random() { state = (state * 16807) % 2147483647; return state / 2147483647 }
+    BEGIN { state = 52
+      for (n = 0; n < 500; n++) {
+        turn = 6.283185307179586 * random(); tilt = 0.1228 * sqrt(random()); x = 7 * random() - 3.5; z = 7 * random() - 3.5
+        printf "%.17g 8 %.17g %.17g -1 %.17g\n", x - 8 * tilt * cos(turn), z - 8 * tilt * sin(turn), tilt * cos(turn), tilt * sin(turn)
+      } }' >"$data/unused.rays"
+  "$pscn" trace scenes/waves.pscn <"$data/unused.rays" >"$data/unused.hits"
+  for method in newton laguerre aberth; do
+    for way in printed 'radii polygon' 'deflation composite'; do
+      "$pscn" trace scenes/waves.pscn --quiet <"$data/unused.rays" \
+        --solver "$method { form paper tolerance 1e-10 max_iterations 500 ${way#printed} }" | paste -d' ' "$data/unused.hits" - |
+        awk -v name="$method,$way" '$1 == "hit" { all++; off = $10 - $2; found += $9 == "hit" && off * off <= (1e-2 * $2) ^ 2 }
+          END { print name "," all "," found + 0 }'
+    done
+  done | { echo 'method,way,hits,found'; cat; } | keep field.csv
+  rm "$data"/unused*
+}
+
 # Why hits are lost, class by class, and the condition of every root (tests/stability/causes.c).
 causes() {
   cmake -S . -B build -DPSCN_TESTS=ON >/dev/null
   cmake --build build --target stability-causes >/dev/null
   PSCN_EFFORT=full build/tests/stability/stability-causes | keep causes.csv
+  build/tests/stability/stability-causes projected | keep near.csv
   build/tests/stability/stability-causes conditions | keep conditions.csv
 }
 
@@ -139,10 +168,10 @@ page() {
 }
 
 mkdir -p "$data"
-for part in "${@:-build curves random claims patch pictures ways causes teapot page}"; do
+for part in "${@:-build curves random claims patch pictures ways field causes teapot page}"; do
   for name in $part; do
     case $name in
-    build | curves | random | claims | patch | pictures | ways | causes | teapot | page) ;;
+    build | curves | random | claims | patch | pictures | ways | field | causes | teapot | page) ;;
     *) echo "paper.sh: there is no part '$name'" >&2 && exit 2 ;;
     esac
     echo "$name"

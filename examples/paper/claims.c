@@ -133,7 +133,7 @@ static void random_problem(uint64_t *seed, int degree, struct root_problem *out,
 
 static void nearest(void)
 {
-  printf("degree,method,nearest,lost\n");
+  printf("degree,method,nearest,lost,starts\n");
   for (int degree = BASIN_DEGREE; degree <= PAPER_DEGREE; degree += PAPER_DEGREE - BASIN_DEGREE) {
     for (int m = 0; m < PAPER_ABERTH; m++) {
       uint64_t seed = 5;
@@ -149,7 +149,7 @@ static void nearest(void)
         }
       }
       const double all = (double)POLYNOMIALS * STARTS;
-      printf("%d,%s,%.4f,%.4f\n", degree, paper_method_names[m], near / all, lost / all);
+      printf("%d,%s,%.4f,%.4f,%.0f\n", degree, paper_method_names[m], near / all, lost / all, all);
     }
   }
 }

@@ -5,6 +5,8 @@ set terminal svg size 640,420 font 'sans,13' background rgb 'white'
 set grid
 set key outside below noenhanced
 methods = 'newton laguerre aberth durand_kerner'
+colours = '#2b6cb0 #2f855a #b7791f #9d174d'    # as in docs/accuracy.md
+do for [k = 1:4] { set linetype k lc rgb word(colours, k) lw 1.3 }
 
 # Figures on an equal footing: three panels, scalar as printed, operations counted (full: by our Table 1, dotted: by the
 # paper's), and on lanes. `rows` is the file, x its column, time and operations those of the panels.
@@ -131,7 +133,7 @@ set xrange [1:18] noreverse
 set ylabel 'log10 of |P| / delta, mean'
 set yrange [*:*]
 order = data.'/order.csv'
-tried = '0.01 0.0001 1e-06 1e-08 1e-10 1e-12'
+tried = '0.01 0.0001 1e-06 1e-12'    # those between coincide with the last
 do for [figure in 'fig11,newton fig12,laguerre fig12-aberth,aberth'] {
   comma = strstrt(figure, ',')
   name = figure[1:comma - 1]
@@ -139,8 +141,8 @@ do for [figure in 'fig11,newton fig12,laguerre fig12-aberth,aberth'] {
   set output data.'/'.name.'.svg'
   set title (name eq 'fig11' ? 'Fig 11: ' : name eq 'fig12' ? 'Fig 12: ' : 'For comparison: ') \
     .method.', accuracy against order (below 0 meets eq 11)'
-  plot for [e = 1:words(tried)] order using ($3 + 0.08 * (e - 3)):(strcol(2) eq method && strcol(1) eq word(tried, e) ? $5 : NaN) \
-       with linespoints title 'eps '.word(tried, e) # moved aside: curves coincide
+  plot for [e = 1:words(tried)] order using 3:(strcol(2) eq method && strcol(1) eq word(tried, e) ? $5 : NaN) \
+       with linespoints title 'eps '.word(tried, e)
 }
 
 # Fig 1: the two curves of a ray, and where they meet.

@@ -20,13 +20,20 @@ function ratio(spec,   word, words, common, k, above, below) {
   below = value(common word[words - 4] "=" word[words - 2] " " word[words - 1] " %.17g")
   return sprintf(word[words], above / below)
 }
+# {{text file}}: its first row.
 # {{share class parameters method cause}}: of 100 hits lost, in causes.csv.
 function share(spec,   word, row) {
   split(spec, word, " ")
   row = "causes class=" word[1] " parameters=" word[2] " method=" word[3] " "
   return sprintf("%.0f", 100 * value(row word[4] " %.17g") / value(row "lost %.17g"))
 }
+function text(spec,   word) {
+  split(spec, word, " ")
+  table_read(word[1])
+  return row[word[1], 1]
+}
 function fill(spec) {
+  if (sub(/^text /, "", spec)) return text(spec)
   if (sub(/^share /, "", spec)) return share(spec)
   return sub(/^ratio /, "", spec) ? ratio(spec) : value(spec)
 }

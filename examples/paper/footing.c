@@ -86,10 +86,12 @@ static void degree_rows(int degree, struct measured found[TASKS][PAPER_METHODS][
     for (int f = 0; f < FORMS; f++) {
       const struct measured *one = &found[ONE][m][f], *all = &found[ALL][m][f];
       const double roots = m == PAPER_ABERTH ? degree : 1, iterations = one->totals.iterations / one->totals.sought;
-      printf("%d,%s,%s,%.3f,%.4f,%.4f,%.4f,%.0f,%.0f,%.0f,%.0f\n", degree, paper_method_names[m], form_names[f],
-             iterations, iterating(&found[FEW][m][f], &found[MANY][m][f], roots) * 1e6, one->seconds / roots * 1e6,
-             all->seconds * 1e6, one->totals.operations / roots / POLYNOMIALS, all->totals.operations / POLYNOMIALS,
-             one->totals.operations_paper / roots / POLYNOMIALS, all->totals.operations_paper / POLYNOMIALS);
+      printf("%d,%s,%s,%.3f,%.4f,%.4f,%.4f,%.0f,%.0f,%.0f,%.0f,%.1f,%.1f\n", degree, paper_method_names[m],
+             form_names[f], iterations, iterating(&found[FEW][m][f], &found[MANY][m][f], roots) * 1e6,
+             one->seconds / roots * 1e6, all->seconds * 1e6, one->totals.operations / roots / POLYNOMIALS,
+             all->totals.operations / POLYNOMIALS, one->totals.operations_paper / roots / POLYNOMIALS,
+             all->totals.operations_paper / POLYNOMIALS, one->totals.operations / one->totals.iterations,
+             one->totals.operations_paper / one->totals.iterations);
     }
   }
 }
@@ -97,7 +99,8 @@ static void degree_rows(int degree, struct measured found[TASKS][PAPER_METHODS][
 static bool degrees(void)
 {
   printf(
-    "degree,method,form,iterations_one,us_iteration,us_one,us_all,operations_one,operations_all,paper_one,paper_all\n");
+    "degree,method,form,iterations_one,us_iteration,us_one,us_all,operations_one,operations_all,paper_one,paper_all,"
+    "operations_iteration,paper_iteration\n");
   for (int degree = 2; degree <= FORMS_DEGREE; degree += degree < 6 ? 1 : 2) {
     double *c = random_polynomials(degree, (uint64_t)degree);
     if (c == NULL) return false;

@@ -19,6 +19,7 @@ struct counted {
   constexpr counted(double x) : value(x) {}
   constexpr counted(int x) : value(x) {}
   constexpr counted(long double x) : value((double)x) {}
+  constexpr counted(size_t x) : value((double)x) {}
   explicit operator float() const { return (float)value; }
   explicit operator bool() const { return value != 0; }
 };
@@ -43,6 +44,7 @@ inline counted fabs(counted a) { return std::fabs(a.value); }
 inline counted hypot(counted a, counted b) { return std::hypot(a.value, b.value); }
 inline counted pow(counted a, counted b) { return std::pow(a.value, b.value); }
 inline counted fmax(counted a, counted b) { return std::fmax(a.value, b.value); }
+inline counted fmin(counted a, counted b) { return std::fmin(a.value, b.value); }
 inline counted copysign(counted a, counted b) { return std::copysign(a.value, b.value); }
 inline counted cos(counted a) { return std::cos(a.value); }
 inline counted sin(counted a) { return std::sin(a.value); }

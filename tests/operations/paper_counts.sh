@@ -1,7 +1,7 @@
 #!/bin/bash
 # paper_counts.sh PROGRAMS: the counts in the committed files of docs/paper are those of the code, unlike the times: all
-# of the random polynomials, the patch at eps = 1e-6, and nearly those of some pictures, as printed and changed. The page
-# agrees with its template. If this fails, examples/paper.sh makes the page again. PROGRAMS is the folder of
+# of the random polynomials, the patch at eps = 1e-6; nearly those of the pictures, as printed and changed, of what lies
+# beside lost hits, and of a height field. The page agrees with its template. If this fails, examples/paper.sh makes the page again. PROGRAMS is the folder of
 # examples/paper in the build tree; PSCN_SOURCE_DIR the source tree.
 set -euo pipefail
 export LC_ALL=C
@@ -60,21 +60,31 @@ same tolerances 1-3,5,7,8 . "$programs/random_experiments" tolerances once
 same order 1-5 . "$programs/random_experiments" order
 same improvements 1-4,6-8 . "$programs/random_experiments" improvements once
 same caps 1-6 . "$programs/random_experiments" caps once
-same footing_degrees 1-4,8-11 . "$programs/footing" degrees once
+same footing_degrees 1-4,8-13 . "$programs/footing" degrees once
 same starts 1-3 . "$programs/claims" starts
 same slopes 1-3 . "$programs/claims" slopes
 same patch 1-4,6,7 '^1e-6,' "$programs/patch_experiments" scenes/paper.pscn 100 75 6
-near pictures '^fig16,newton' picture fig16 paper newton 1e-2
-near pictures '^fig16,laguerre' picture fig16 paper laguerre 1e-2
-near pictures '^fig16,aberth' picture fig16 paper aberth 1e-2
-near pictures '^fig17,newton' picture fig17 paper_magnified newton 1e-10
-# The cause of Fig 17: with u and v exchanged, or with another division, the same methods give another picture.
-eval "$(sed -n '/^exchanged() {/,/^}/p' examples/paper.sh)"
+for method in newton laguerre aberth; do
+  near pictures "^fig16,$method" picture fig16 paper "$method" 1e-2
+  near pictures "^fig17,$method" picture fig17 paper_magnified "$method" 1e-10
+done
+# The cause of Fig 17: with u and v exchanged, with another division, or another start, the same methods give another
+# picture.
+eval "$(sed -n '/^exchanged() {/,/^}/p; /^field() {/,/^}/p; /^keep() /p' examples/paper.sh)"
 exchanged scenes/paper_magnified.pscn >"$folder/exchanged.pscn"
-way() { # WAY SCENE ITEMS
-  printf 'fig17,%s,newton,' "$1"
-  "$programs/picture_errors" "$2" 320 240 "newton { form paper start previous max_iterations 500 tolerance 1e-10 $3 }" "$folder/picture"
+way() { # WAY SCENE METHOD ITEMS
+  printf 'fig17,%s,%s,' "$1" "$3"
+  "$programs/picture_errors" "$2" 320 240 "$3 { form paper start previous max_iterations 500 tolerance 1e-10 $4 }" "$folder/picture"
 }
-near ways '^fig17,exchanged,newton' way exchanged "$folder/exchanged.pscn" ''
-near ways '^fig17,deflation composite,newton' way 'deflation composite' scenes/paper_magnified.pscn 'deflation composite'
+for method in newton laguerre; do
+  near ways "^fig17,exchanged,$method" way exchanged "$folder/exchanged.pscn" "$method" ''
+  for items in 'deflation composite' 'radii polygon'; do
+    near ways "^fig17,$items,$method" way "$items" scenes/paper_magnified.pscn "$method" "$items"
+  done
+done
+# Where lost hits lie, and how many are found along the axis of a height field.
+near near '^Fig' "$programs/../../tests/stability/stability-causes" projected
+data=$folder
+field
+near field '^[nla]' cat "$folder/field.csv"
 exit $failed

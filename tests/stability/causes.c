@@ -13,7 +13,9 @@
  * loose      the method finds the hit with eps = 1e-12
  * other
  *
- * `causes CLASS` does one class only. `causes conditions` prints, hit by hit, condition numbers and errors of u instead (conditions_of). */
+ * `causes CLASS` does one class only. `causes projected` prints only where the hits lost in the paper's pictures lie: at a
+ * tangency, or where only the projection onto u makes a double root, whatever else spoils them. `causes conditions`
+ * prints, hit by hit, condition numbers and errors of u (conditions_of). */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -150,7 +152,7 @@ static enum cause geometric(const struct algebra *algebra)
 /* ---- counts ---- */
 
 struct counts {
-  size_t rays, hits, lost, invented, cause[CAUSES];
+  size_t rays, hits, lost, invented, cause[CAUSES], geometry[CAUSES];
 };
 
 static void tell(void *context, const char *text, size_t length)
@@ -193,13 +195,15 @@ static bool finds(struct target *target, const struct ray *ray, const struct hit
   return hit.patch != HIT_NONE && (truth->patch == HIT_NONE || fabs(hit.t - truth->t) <= WRONG * truth->t);
 }
 
-/* The rays against the patch, by all ways of all methods, in their order (with `start previous` that matters). */
-static bool count_rays(net4 P, size_t count, const struct ray rays[], const char *items, struct counts out[METHODS])
+/* The rays against the patch, by the first `ways` ways of all methods, in their order (with `start previous` that
+ * matters). */
+static bool count_rays(net4 P, size_t count, const struct ray rays[], const char *items, int ways,
+                       struct counts out[METHODS])
 {
-  struct target truth, target[METHODS][WAYS];
+  struct target truth, target[METHODS][WAYS] = {0};
   bool good = target_make(&truth, P, "bernstein");
   for (int m = 0; m < METHODS; m++)
-    for (int w = 0; w < WAYS; w++) {
+    for (int w = 0; w < ways; w++) {
       char text[200];
       snprintf(text, sizeof text, "%s { form paper max_iterations 500 %s %s }", METHOD[m], items, WAY[w]);
       good = target_make(&target[m][w], P, text) && good;
@@ -211,8 +215,8 @@ static bool count_rays(net4 P, size_t count, const struct ray rays[], const char
     struct algebra algebra;
     enum cause geometry = CAUSES;
     for (int m = 0; m < METHODS; m++) {
-      bool found[WAYS];
-      for (int w = 0; w < WAYS; w++) found[w] = finds(&target[m][w], &rays[n], &hit);
+      bool found[WAYS] = {false};
+      for (int w = 0; w < ways; w++) found[w] = finds(&target[m][w], &rays[n], &hit);
       if (!certain) continue;
       out[m].rays++, out[m].hits += hit.patch != HIT_NONE;
       if (hit.patch == HIT_NONE) out[m].invented += found[0];
@@ -232,7 +236,7 @@ static bool count_rays(net4 P, size_t count, const struct ray rays[], const char
                                : found[4]                        ? EUCLID
                                : found[5]                        ? LOOSE
                                                                  : OTHER;
-      out[m].cause[cause]++;
+      out[m].cause[cause]++, out[m].geometry[geometry]++;
     }
   }
   target_free(&truth);
@@ -271,13 +275,20 @@ static void print_counts(const char *name, bool exchanged, const struct counts c
   }
 }
 
+static void print_geometry(const char *name, const struct counts counts[METHODS])
+{
+  for (int m = 0; m < METHODS; m++)
+    printf("%s,%s,%zu,%zu,%zu\n", name, METHOD[m], counts[m].lost, counts[m].geometry[TANGENT],
+           counts[m].geometry[PROJECTED]);
+}
+
 /* ---- the paper's pictures ---- */
 
-/* The camera rays of a scene of one patch, line by line. */
-static bool count_picture(const char *name, const char *file, const char *items, bool exchanged)
+/* The camera rays of a scene of one patch, line by line; all causes, or only where lost hits lie. */
+static bool count_picture(const char *name, const char *file, const char *items, bool exchanged, bool causes)
 {
   enum { WIDTH = 320, HEIGHT = 240 };
-  const int side = effort_fraction() >= 0.5 ? 1 : 8;
+  const int side = !causes || effort_fraction() >= 0.5 ? 1 : 8;
   static struct ray rays[WIDTH * HEIGHT];
   char path[400];
   snprintf(path, sizeof path, "%s/scenes/%s", PSCN_SOURCE_DIR, file);
@@ -293,12 +304,14 @@ static bool count_picture(const char *name, const char *file, const char *items,
   net4 P;
   memcpy(P, scene->patches[0].P, sizeof P);
   if (exchanged) exchange(P);
-  const bool good = count_rays(P, count, rays, items, counts);
-  print_counts(name, exchanged, counts);
+  const bool good = count_rays(P, count, rays, items, causes ? WAYS : 1, counts);
+  if (causes) print_counts(name, exchanged, counts);
+  else print_geometry(name, counts);
   /* What the page says of Fig 17, with the parameters in either order: Newton's method loses many hits, nearly all to
    * far roots, and Aberth's next to none. */
-  const bool facts = strcmp(name, "Fig 17") != 0 || (counts[2].lost * 20 < counts[0].lost && counts[0].lost > 0 &&
-                                                     counts[0].cause[FAR] * 10 > counts[0].lost * 9);
+  const bool facts = !causes || strcmp(name, "Fig 17") != 0 ||
+                     (counts[2].lost * 20 < counts[0].lost && counts[0].lost > 0 &&
+                      counts[0].cause[FAR] * 10 > counts[0].lost * 9);
   scene_destroy(scene);
   return good && facts;
 }
@@ -364,19 +377,24 @@ static bool conditions(void)
   return good;
 }
 
+static bool pictures(bool exchanged, bool causes)
+{
+  return count_picture("Fig 16", "paper.pscn", "start previous tolerance 1e-2", exchanged, causes) &
+         count_picture("Fig 17", "paper_magnified.pscn", "start previous tolerance 1e-10", exchanged, causes);
+}
+
 int main(int argc, char **argv)
 {
   if (argc > 1 && strcmp(argv[1], "conditions") == 0) return conditions() ? EXIT_SUCCESS : EXIT_FAILURE;
+  if (argc > 1 && strcmp(argv[1], "projected") == 0) {
+    printf("class,method,lost,tangent,projected\n");
+    return pictures(false, false) ? EXIT_SUCCESS : EXIT_FAILURE;
+  }
   const char *only = argc > 1 ? argv[1] : "";
   bool good = true;
   printf("class,parameters,method,rays,hits,invented,lost,low,high,lower,far,tangent,projected,rounding,euclid,loose,"
          "other\n");
-  for (int exchanged = 0; exchanged < 2; exchanged++) {
-    if (*only != '\0' && strncmp(only, "Fig", 3) != 0) break;
-    good &= count_picture("Fig 16", "paper.pscn", "start previous tolerance 1e-2", exchanged);
-    if (strcmp(only, "Fig 16") != 0)
-      good &= count_picture("Fig 17", "paper_magnified.pscn", "start previous tolerance 1e-10", exchanged);
-  }
+  for (int exchanged = 0; exchanged < 2 && *only == '\0'; exchanged++) good &= pictures(exchanged, true);
   const size_t nets = effort_count(FULL_NETS, LEAST_NETS);
   for (size_t k = 0; k < net_class_count(); k++)
     for (int exchanged = 0; exchanged < 2 && (*only == '\0' || strcmp(only, net_class_at(k)->name) == 0); exchanged++) {
@@ -387,7 +405,7 @@ int main(int argc, char **argv)
         struct ray rays[RAYS];
         net_class_at(k)->make(&random, P, rays);
         if (exchanged) exchange(P);
-        good &= count_rays(P, RAYS, rays, "tolerance 1e-10", counts);
+        good &= count_rays(P, RAYS, rays, "tolerance 1e-10", WAYS, counts);
       }
       print_counts(net_class_at(k)->name, exchanged, counts);
       /* Along the axis of a height field r has degree 12, and the roots of its other coefficients' roundings come
