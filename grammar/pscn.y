@@ -16,6 +16,7 @@
 %code requires {
 #include "language/arrays.h"
 #include "language/camera.h"
+#include "language/declare.h"
 #include "language/functions.h"
 #include "language/objects.h"
 #include "language/settings.h"
@@ -62,49 +63,48 @@ static void pscn_error(struct language *language, const char *message)
   struct texture *texture;
   struct node *node;
   struct declaration *declaration;
-  struct matrix *matrix;
   const struct transform *transform;
 }
 
-%token END 0 "the end of the text"
+%token END 0 "the end of the text" /* errors do not list tokens without such a name */
 %token <place> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a string"
-%token <place> FOREIGN "a word of POV-Ray's" SHAPE "a shape" REFUSED "a function of POV-Ray's" IGNORED "a word without effect"
+%token <place> FOREIGN SHAPE REFUSED IGNORED COMPONENT
 %token <place> START_SCENE START_SOLVER START_CONDITION START_RANGE START_FOR START_INDICES START_STRING START_ARGUMENTS START_DIRECTIVE
 %token <place> VERSION "#version" DECLARE "#declare" LOCAL "#local" DEFAULT "#default"
-%token <place> GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level"
+%token <place> GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma"
 %token <place> AMBIENT_LIGHT "ambient_light"
-%token <place> CAMERA "camera" PERSPECTIVE "perspective" LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up"
+%token <place> CAMERA "camera" LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up"
 %token <place> SKY "sky" ANGLE "angle" LOOK_AT "look_at"
 %token <place> LIGHT_SOURCE "light_source" SHADOWLESS "shadowless" BACKGROUND "background"
 %token <place> BICUBIC_PATCH "bicubic_patch" TYPE "type" FLATNESS "flatness" U_STEPS "u_steps" V_STEPS "v_steps"
 %token <place> UV_VECTORS "uv_vectors"
 %token <place> UNION "union" OBJECT "object" TRANSLATE "translate" ROTATE "rotate" SCALE "scale" MATRIX "matrix"
+%token <place> TRANSFORM "transform"
 %token <place> TEXTURE "texture" PIGMENT "pigment" FINISH "finish"
 %token <place> AMBIENT "ambient" DIFFUSE "diffuse" BRILLIANCE "brilliance" PHONG "phong" PHONG_SIZE "phong_size"
 %token <place> SPECULAR "specular" ROUGHNESS "roughness"
-%token <place> COLOR "color" RGB "rgb" X "x" Y "y" Z "z" RED "red" GREEN "green" BLUE "blue"
-%token COMPARISON "a comparison"
+%token <place> COLOR "color" RGB "rgb" X "x" Y "y" Z "z"
+%token <place> RED "red" GREEN "green" BLUE "blue" FILTER "filter"
+%token COMPARISON
 %token <place> CONSTANT "a constant" FUNCTION "a function" DEFINED "defined" ARRAY "array"
 %token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use makes POV-Ray warn */
-%token <place> RGBF "rgbf" RGBFT "rgbft" SRGB "srgb" SRGBF "srgbf" SRGBFT "srgbft" FILTER "filter"
 %token <place> SOLVER "solver"
 
-%type <value> expression condition name string value colour spaced shade solid array quantity four five
-%type <list> list indices more_indices target arguments
-%type <index> part camera_vector
-%type <place> solver method modifier
+%type <value> expression condition name string value colour spaced shade solid array quantity
+%type <list> list parts indices more_indices target arguments
+%type <index> camera_vector
+%type <place> part component solver method modifier
 %type <texture> texture_block pigment_block finish_block part_block surface
 %type <node> object patch union copy
 %type <declaration> declare
-%type <matrix> matrix_numbers
-%type <transform> transform
+%type <transform> transform transform_block
 
 /* A declaration that an error ends: its name must not be reported as unknown as well. */
 %destructor { declare_broken(language, $$); } <declaration>
 
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
 %precedence ITEM
-%precedence <place> ',' ';' '{'
+%precedence <place> ';' '{'
 %precedence RED GREEN BLUE FILTER
 %right '?' ':'
 %left '&' '|'
@@ -162,7 +162,7 @@ statement:
 /* May stand between the items of every block. */
 foreign:
     IGNORED                                    { tokens_pass(language); }
-  | FOREIGN                                    { language_lacks_word(language, $1); tokens_pass(language); }
+  | FOREIGN                                    { language_lacks(language, $1, $1); tokens_pass(language); }
   ;
 
 directive:
@@ -186,6 +186,7 @@ layers: %empty | layers TEXTURE { layer_begin(language, $2); } '{' texture_items
 solid:
     object                                     { $$ = value_of_object(language, $1); }
   | part_block                                 { $$ = value_of_texture(language, $1); }
+  | transform_block                            { $$ = value_of_transform(language, $1); }
   | array
   ;
 declare: DECLARE old target '='                { $$ = declare_begin(language, value_reversed($3), NULL); }
@@ -234,9 +235,8 @@ expression:
   | FUNCTION '(' list ')'                      { $$ = value_function(language, $3, $1, span_join($1, $4)); }
   | DEFINED '(' WORD ')'                       { $$ = value_defined(language, $3, span_join($1, $4)); }
   | '(' condition ')'                          { $$ = value_alone(language, $2, span_join($1, $3)); }
-  | '<' expression comma expression comma expression comma '>'
-                                               { $$ = value_of_parts(language, $2, $4, $6, span_join($1, $8)); }
-  | '<' expression comma expression comma '>'  { $$ = value_flat(language, $2, $4, span_join($1, $6)); }
+  | '<' parts '>'                              { $$ = value_of_parts(language, $2, span_join($1, $3)); }
+  | '<' parts ',' '>'                          { $$ = value_of_parts(language, $2, span_join($1, $4)); }
   | expression '+' expression                  { $$ = value_binary(language, '+', $1, $3); }
   | expression '-' expression                  { $$ = value_binary(language, '-', $1, $3); }
   | expression '*' expression                  { $$ = value_binary(language, '*', $1, $3); }
@@ -244,13 +244,14 @@ expression:
   | '-' expression %prec SIGN                  { $$ = value_negative(language, $2, span_join($1, $2->place)); }
   | '+' expression %prec SIGN                  { $$ = value_positive(language, $2, span_join($1, $2->place)); }
   | '!' expression                             { $$ = value_not(language, $2, span_join($1, $2->place)); }
-  | expression '.' X                           { $$ = value_component(language, $1, 0, $3); }
-  | expression '.' Y                           { $$ = value_component(language, $1, 1, $3); }
-  | expression '.' Z                           { $$ = value_component(language, $1, 2, $3); }
-  | expression '.' RED                         { $$ = value_component(language, $1, 0, $3); }
-  | expression '.' GREEN                       { $$ = value_component(language, $1, 1, $3); }
-  | expression '.' BLUE                        { $$ = value_component(language, $1, 2, $3); }
+  | expression '.' component                   { $$ = value_component(language, $1, $3); }
   ;
+component: X | Y | Z | COMPONENT | part;
+part: RED | GREEN | BLUE | FILTER;
+/* The comma between two may be missing. */
+parts: expression %prec ITEM                   { $$ = value_before(NULL, $1); }
+  | parts expression %prec ITEM                { $$ = value_before($1, $2); }
+  | parts ',' expression %prec ITEM            { $$ = value_before($1, $3); };
 
 name: WORD                                     { $$ = value_named(language, $1); };
 list: expression                               { $$ = value_before(NULL, $1); }
@@ -276,38 +277,19 @@ colour:
   | COLOR expression %prec ITEM                { $$ = value_color(language, $2, span_join($1, $2->place)); }
   | spaced
   | COLOR spaced                               { $$ = value_placed($2, span_join($1, $2->place)); }
-  | expression part expression %prec ITEM
-                                               { $$ = value_bare_part(language, $1, $2, $3, span_join($1->place, $3->place)); }
-  | part expression %prec ITEM                 { $$ = value_part(language, NULL, $1, $2, $2->place); }
-  | COLOR part expression %prec ITEM           { $$ = value_part(language, NULL, $2, $3, span_join($1, $3->place)); }
-  | colour part expression %prec ITEM
-                                               { $$ = value_part(language, $1, $2, $3, span_join($1->place, $3->place)); }
+  | expression part expression %prec ITEM      { $$ = value_part(language, $1, $2, $3); }
+  | part expression %prec ITEM                 { $$ = value_part(language, NULL, $1, $2); }
+  | COLOR part expression %prec ITEM           { $$ = value_part(language, NULL, $2, $3); }
+  | colour part expression %prec ITEM          { $$ = value_part(language, $1, $2, $3); }
   ;
-spaced:
-    RGB expression %prec ITEM                  { $$ = value_rgb(language, $2, span_join($1, $2->place)); }
-  | RGBF expression %prec ITEM                 { $$ = value_rgbft(language, $2, 4, span_join($1, $2->place)); }
-  | RGBFT expression %prec ITEM                { $$ = value_rgbft(language, $2, 5, span_join($1, $2->place)); }
-  | RGBF four                                  { $$ = value_placed($2, span_join($1, $2->place)); }
-  | RGBFT five                                 { $$ = value_placed($2, span_join($1, $2->place)); }
-  | SRGB expression %prec ITEM                 { $$ = value_srgb(language, $1, value_rgb(language, $2, $2->place)); }
-  | SRGBF expression %prec ITEM                { $$ = value_srgb(language, $1, value_rgbft(language, $2, 4, $2->place)); }
-  | SRGBFT expression %prec ITEM               { $$ = value_srgb(language, $1, value_rgbft(language, $2, 5, $2->place)); }
-  | SRGBF four                                 { $$ = value_srgb(language, $1, $2); }
-  | SRGBFT five                                { $$ = value_srgb(language, $1, $2); }
-  ;
-part: RED { $$ = 0; } | GREEN { $$ = 1; } | BLUE { $$ = 2; } | FILTER { $$ = 3; };
-four: '<' expression comma expression comma expression comma expression comma '>'
-                                               { $$ = value_wide(language, $2, $4, $6, $8, NULL, span_join($1, $10)); };
-five: '<' expression comma expression comma expression comma expression comma expression '>'
-                                               { $$ = value_wide(language, $2, $4, $6, $8, $10, span_join($1, $11)); };
+spaced: RGB expression %prec ITEM              { $$ = value_rgb(language, $1, $2); };
 
 /* ---- settings, camera, lights ---- */
 
 global_items: %empty | global_items global_item;
 global_item:
     ASSUMED_GAMMA value                        { global_gamma(language, $1, $2); }
-  | ASSUMED_GAMMA SRGB                         { global_gamma(language, $1, NULL); }
-  | MAX_TRACE_LEVEL value                      { global_trace_level(language, $2); }
+  | ASSUMED_GAMMA RGB                          { global_gamma(language, $2, NULL); }
   | AMBIENT_LIGHT shade                        { global_ambient(language, $2); }
   | solver                                     { global_solver(language); }
   | foreign
@@ -316,9 +298,8 @@ global_item:
 
 camera_items: %empty | camera_items camera_item;
 camera_item:
-    PERSPECTIVE                                { camera_perspective(language, $1); }
-  | camera_vector { camera_item(language); } value { camera_vector(language, $1, $3); }
-  | ANGLE { camera_item(language); } value     { camera_angle(language, $3); }
+    camera_vector value                        { camera_vector(language, $1, $2); }
+  | ANGLE value                                { camera_angle(language, $2); }
   | transform                                  { camera_transform(language, $1); }
   | foreign
   | error                                      { RECOVER(); }
@@ -336,8 +317,7 @@ camera_vector:
 /* The position, then the colour, then the rest. */
 light_items: %empty | light_items light_item;
 light_item:
-    shade                                      { light_value(language, $1); }
-  | ','                                        { light_comma(language, $1); }
+    shade comma                                { light_value(language, $1); }
   | SHADOWLESS                                 { light_shadowless(language, $1); }
   | transform                                  { light_transform(language, $1); }
   | foreign
@@ -360,17 +340,15 @@ object: patch | union | copy
 /* Settings, then 16 points, then modifiers. */
 patch: BICUBIC_PATCH '{' { patch_begin(language, $1); } patch_items '}'
     { patch_end(language); $$ = node_end(language, $5); };
-patch_items: %empty | patch_items patch_item
-  | patch_items value ','                      { patch_point(language, $2), patch_comma(language, $3); }
-  | patch_items value %prec ITEM               { patch_point(language, $2); }
-  ;
+patch_items: %empty | patch_items patch_item;
 patch_item:
-    TYPE value                                { patch_number(language, PATCH_TYPE, $1, $2); }
+    ','
+  | value                                      { patch_point(language, $1); }
+  | TYPE value                                { patch_number(language, PATCH_TYPE, $1, $2); }
   | FLATNESS value                            { patch_number(language, PATCH_FLATNESS, $1, $2); }
   | U_STEPS value                             { patch_number(language, PATCH_U_STEPS, $1, $2); }
   | V_STEPS value                             { patch_number(language, PATCH_V_STEPS, $1, $2); }
-  | UV_VECTORS                                 { language_lacks_word(language, $1); tokens_pass_vectors(language, 4); }
-  | ','                                        { patch_comma(language, $1); }
+  | UV_VECTORS                                 { language_lacks(language, $1, $1); tokens_pass_vectors(language, 4); }
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
   | foreign
@@ -410,13 +388,18 @@ transform:
     TRANSLATE value                           { $$ = transform_translate(language, $1, $2); }
   | ROTATE value                              { $$ = transform_rotate(language, $1, $2); }
   | SCALE value                               { $$ = transform_scale(language, $1, $2); }
-  | MATRIX '<' matrix_numbers '>'              { $$ = transform_matrix(language, span_join($1, $4), $3); }
-  | MATRIX POINT                               { $$ = transform_matrix(language, $2, NULL); }
+  | MATRIX '<' parts '>'                      { $$ = transform_matrix(language, span_join($1, $4), $3); }
+  | MATRIX POINT                              { $$ = transform_matrix(language, $2, NULL); }
+  | TRANSFORM name                            { $$ = transform_named(language, value_last(language, $2)); }
+  | transform_block
   ;
-matrix_numbers:
-    expression %prec ITEM                      { $$ = matrix_begin(language, value_last(language, $1)); }
-  | matrix_numbers expression %prec ITEM       { matrix_add(language, $$ = $1, value_last(language, $2)); }
-  | matrix_numbers ',' expression %prec ITEM   { matrix_add(language, $$ = $1, value_last(language, $3)); }
+transform_block: TRANSFORM '{' { transforms_begin(language); } transform_items '}'
+    { $$ = transforms_end(language, span_join($1, $5)); };
+transform_items: %empty | transform_items transform_item;
+transform_item:
+    name        { transforms_add(language, transform_named(language, value_last(language, $1))); }
+  | transform                                  { transforms_add(language, $1); }
+  | error                                      { RECOVER(); }
   ;
 
 /* ---- textures ---- */

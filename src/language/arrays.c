@@ -34,7 +34,7 @@ static struct array *empty_array(struct language *language, const struct value *
     }
     if (!value_to_number(language, size, &x)) return NULL;
     if (!(x >= 1 && x < MOST_ELEMENTS + 1.0)) {
-      language_error(language, size->place, "the size of an array is a number from 1 to %d", MOST_ELEMENTS);
+      language_error(language, size->place, "the size of an array must be from 1 to %d", MOST_ELEMENTS);
       return NULL;
     }
     array->size[array->dimensions++] = (int)x;
@@ -69,7 +69,7 @@ void array_row(struct language *language, struct span brace)
   struct open_array *open = language->array;
   const struct array *array = open->value->array;
   if (array && open->level + 1 >= array->dimensions)
-    language_error_in(language, &open->block, brace, "the array has fewer dimensions than this brace asks for");
+    language_error_in(language, &open->block, brace, "the array has fewer dimensions than there are braces");
   else if (++open->level < MAX_DIMENSIONS) open->at[open->level] = 0;
 }
 
@@ -81,14 +81,14 @@ void array_given(struct language *language, const struct value *value)
   const int at = open->at[open->level]++;
   if (open->level != array->dimensions - 1) {
     language_error_in(language, &open->block, value->place,
-                      "the elements of an array of several dimensions stand in rows: { { }, { } }");
+                      "the elements of an array of several dimensions must be in rows: { { }, { } }");
     return;
   }
   size_t index = 0;
   for (int k = 0; k <= open->level; k++) {
     const int i = k < open->level ? open->at[k] : at;
     if (i >= array->size[k]) {
-      language_error_in(language, &open->block, value->place, "the array has no room for this element");
+      language_error_in(language, &open->block, value->place, "this element is one too many for the array");
       return;
     }
     index = index * (size_t)array->size[k] + (size_t)i;
@@ -103,7 +103,7 @@ void array_row_end(struct language *language, struct span brace)
   const struct array *array = open->value->array;
   if (!array || open->level >= MAX_DIMENSIONS) return;
   if (open->at[open->level] < array->size[open->level])
-    language_error_in(language, &open->block, brace, "the array has more elements than are given here");
+    language_error_in(language, &open->block, brace, "too few elements are given for the array");
   if (open->level > 0) open->at[--open->level]++;
 }
 
@@ -149,13 +149,13 @@ struct value *array_element(struct language *language, struct value *value, cons
     }
     x = trunc(x);
     if (!(x >= 0 && x < array->size[given])) {
-      language_error(language, i->place, "the array has elements 0 to %d here, and no %g", array->size[given] - 1, x);
+      language_error(language, i->place, "the index must be from 0 to %d, not %g", array->size[given] - 1, x);
       return NULL;
     }
     index = index * (size_t)array->size[given] + (size_t)x;
   }
   if (given < array->dimensions) {
-    language_error(language, name->place, "the array has %d dimensions, and %d %s given", array->dimensions, given,
+    language_error(language, name->place, "the array has %d dimensions, but %d %s given", array->dimensions, given,
                    given == 1 ? "is" : "are");
     return NULL;
   }

@@ -15,7 +15,7 @@
 /* A limit for unit vectors: below it, they are in a line or in a plane, as far as their own rounding lets one tell. */
 #define FLAT 0x1p-45
 
-/* From this version on, POV-Ray sorts the items. In older ones, each acts where it stands. */
+/* From this version on, POV-Ray sorts the items. In older ones, each acts where it stands, which matters for look_at. */
 #define VERSION_SORTED 3.5
 
 /* POV-Ray's absolute limit, in the units of `sky`: how far its tip may be from the line of sight for it to lie along
@@ -38,36 +38,13 @@ void camera_begin(struct language *language, struct span place)
   camera->block = language_block(language, place);
 }
 
-/* The version before the first item counts. */
-void camera_item(struct language *language)
-{
-  struct camera_items *camera = language->camera;
-  if (!camera->begun) camera->sorted = language->settings->version >= VERSION_SORTED;
-  camera->begun = true;
-}
-
-void camera_perspective(struct language *language, struct span place)
-{
-  if (language->camera->begun) language_error(language, place, "perspective stands first in a camera");
-  camera_item(language);
-}
-
-/* Reports an item behind another one that depends on it in POV-Ray. */
-static void tell_late(struct language *language, struct span place)
-{
-  if (!language->camera->sorted)
-    language_error(language, place, "before version 3.5 look_at, angle and transforms stand behind what they change");
-}
-
 void camera_vector(struct language *language, int which, const struct value *value)
 {
   struct camera_items *camera = language->camera;
   value_to_vector(language, value, camera->item[which]);
   camera->unknown |= value->kind == VALUE_UNKNOWN;
-  const bool of_angle = which == CAMERA_DIRECTION || which == CAMERA_RIGHT;
-  if (camera->moved || camera->look_at || (camera->angle > 0 && of_angle)) /* a second look_at begins from the first
-                                                                              one's frame */
-    tell_late(language, value->place);
+  if (camera->look_at && language->settings->version < VERSION_SORTED)
+    language_error(language, value->place, "before version 3.5, look_at must be the camera's last vector");
   if (which != CAMERA_LOOK_AT) return;
   camera->look_at = true;
   camera->look_at_place = value->place;
@@ -77,11 +54,7 @@ void camera_angle(struct language *language, const struct value *value)
 {
   double angle;
   struct camera_items *camera = language->camera;
-  if (camera->moved) tell_late(language, value->place);
   if (!value_to_number(language, value, &angle)) return;
-  if (angle == 0 && !camera->sorted)
-    language_error(language, value->place,
-                   "before version 3.5 the angle must be above 0, which made direction infinite");
   if (angle >= 0 && angle < 180) camera->angle = angle;
   else language_error(language, value->place, "the angle must be at least 0 and less than 180 degrees");
 }
@@ -89,8 +62,6 @@ void camera_angle(struct language *language, const struct value *value)
 void camera_transform(struct language *language, const struct transform *transform)
 {
   struct camera_items *camera = language->camera;
-  camera_item(language);
-  camera->moved = true;
   camera->transform = transform_then(&camera->transform, transform);
 }
 

@@ -12,10 +12,7 @@ struct camera_items {
   double item[6][3];
   bool said;    /* there is a camera statement */
   bool unknown; /* a vector is, because of an earlier error */
-  bool begun;   /* an item has come */
-  bool sorted;  /* POV-Ray sorts the items, so that their order means nothing */
   bool look_at;
-  bool moved;                 /* a transform has come */
   double angle;               /* degrees; 0: not given */
   struct transform transform; /* applied to what all other items make */
   struct block block;
@@ -25,8 +22,6 @@ struct camera_items {
 void camera_default(struct camera_items *out);
 /* Actions of the grammar, in the order of the text. `place`: that of the word. */
 void camera_begin(struct language *language, struct span place);
-void camera_perspective(struct language *language, struct span place);
-void camera_item(struct language *language); /* behind the word of an item */
 void camera_vector(struct language *language, int which, const struct value *value);
 void camera_angle(struct language *language, const struct value *value);
 void camera_transform(struct language *language, const struct transform *transform);

@@ -1,5 +1,4 @@
-/* Directives, and all other tokens of the scanner that are not the grammar's. A loop's text is read again from its
- * place in the source. */
+/* Directives, and all other tokens of the scanner that are not the grammar's. */
 #ifndef PSCN_LANGUAGE_DIRECTIVES_H
 #define PSCN_LANGUAGE_DIRECTIVES_H
 
@@ -15,7 +14,7 @@ int directives_scan(struct language *language);
  * there is none. */
 bool directives_name(struct language *language, const char *directive, struct name *out);
 
-/* Skips to behind the matching #end; false if there is none. */
-bool directives_skip_to_end(struct language *language);
+/* Reports the comment or the quote that the source does not close. */
+void directives_tell_open(struct language *language, int token);
 
 #endif

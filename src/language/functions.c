@@ -302,15 +302,16 @@ static void string_function(struct call *call, enum special which, struct value 
     const double x = number(call), length = number(call);
     string_add_number(x, length, number(call), text, sizeof text, &used);
   } else {
-    double v[3];
-    const int parts = (int)lesser(3, number(call));
-    vector(call, v);
+    const int parts = (int)lesser(MAX_PARTS, number(call));
+    const struct value *value = call->next;
+    if (value->kind > VALUE_COLOUR) symbol_mistaken(call->language, value, "a vector"), call->fits = false;
+    call->next = value->next;
     const struct value *between = of_kind(call, VALUE_STRING, "a string");
     const double length = number(call), precision = number(call);
     for (int k = 0; call->fits && k < parts; k++) {
       if (k > 0) used += (size_t)snprintf(text + used, 100, "%.*s", (int)between->length, between->text);
       if (used > sizeof text / 2) break;
-      string_add_number(v[k], length, precision, text, sizeof text - 100, &used);
+      string_add_number(value_x(value, k), length, precision, text, sizeof text - 100, &used);
     }
   }
   char *to = call->fits ? string_make(call->language, out, used) : NULL;
@@ -349,6 +350,7 @@ static double special(struct call *call, enum special which, struct value *out)
   case VSTR: string_function(call, which, out); return 0;
   default:
     out->kind = VALUE_VECTOR;
+    out->parts = 3;
     vector_function(call, which, out->x);
     return 0;
   }
@@ -363,17 +365,17 @@ struct value *value_function(struct language *language, struct value *arguments,
   int count = 0;
   for (const struct value *a = list; a; a = a->next) count++;
   if (count < function->least || count > function->most) {
-    language_error(language, whole, "%s has %d argument%s, and %d %s given", function->name, function->least,
+    language_error(language, whole, "%s has %d argument%s, but %d %s given", function->name, function->least,
                    function->least == 1 ? "" : "s", count, count == 1 ? "is" : "are");
     call.fits = false;
   } else {
     const double x = function->of_one || function->of_two ? of_numbers(&call, function)
                                                           : special(&call, function->special, out);
-    if (out->kind == VALUE_NUMBER) out->x[0] = out->x[1] = out->x[2] = x;
+    if (out->kind == VALUE_NUMBER) out->x[0] = x;
   }
   for (int k = 0; call.fits && out->kind <= VALUE_VECTOR && k < 3; k++) {
     if (number_in_range(&out->x[k])) continue;
-    language_error(language, whole, "%.*s has no value here", (int)name.length, name.text);
+    language_error(language, whole, "%.*s has no value for these arguments", (int)name.length, name.text);
     call.fits = false;
   }
   value_last_of_list(language, list);

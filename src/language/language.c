@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "language/camera.h"
 #include "language/expand.h"
+#include "language/includes.h"
 #include "language/settings.h"
 #include "language/strings.h"
 #include "language/textures.h"
@@ -98,11 +99,10 @@ static enum status parse(struct reading *r, struct source *source)
 {
   const size_t before = r->language.diagnostics->error_count;
   if (setjmp(r->sources.broken) != 0) return STATUS_LIMIT;
-  if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
+  if (!source || !include_open(&r->language, source)) return STATUS_LIMIT;
   r->tokens.start[0] = r->tokens.solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
   r->tokens.start[1] = r->tokens.solver_only ? PSCN_TOKEN_SOLVER : 0;
   const int result = pscn_parse(&r->language);
-  if (!r->language.stopped) symbols_tell_missed(&r->language);
   language_tell_left_out(&r->language);
   messages_end(&r->language);
   if (result == 1 && r->language.diagnostics->error_count == before && !r->language.ended_early) tell_end(&r->language);
@@ -149,7 +149,8 @@ enum status language_set_tolerance(double tolerance, size_t count, struct method
   if (isnan(tolerance)) return STATUS_OK;
   const struct method_item *item = method_item_find("tolerance");
   if (!(tolerance >= item->minimum && tolerance <= item->maximum)) {
-    diagnostics_error(diagnostics, NOWHERE, "the tolerance is a number from %g to %g", item->minimum, item->maximum);
+    diagnostics_error(diagnostics, NOWHERE, "the tolerance must be a number from %g to %g", item->minimum,
+                      item->maximum);
     return STATUS_USAGE;
   }
   for (size_t k = 0; k < count; k++) item->set(&methods[k], tolerance);

@@ -1,6 +1,7 @@
 /* Macros, whose text is read again at each call. */
 #include "language/macros.h"
 
+#include "language/control.h"
 #include "language/directives.h"
 #include "language/tokens.h"
 #include "language/values.h"
@@ -16,7 +17,7 @@ static bool read_parameters(struct language *language, struct macro *macro)
   struct parameter **end = &macro->parameters;
   int token = directives_scan(language);
   if (token != '(') {
-    language_tell(language, sources_here(language), "#macro wants a name and then its parameters in parentheses");
+    language_tell(language, sources_here(language), "#macro needs a name and its parameters in parentheses");
     return false;
   }
   while ((token = directives_scan(language)) == PSCN_TOKEN_WORD) {
@@ -32,7 +33,7 @@ static bool read_parameters(struct language *language, struct macro *macro)
     else if (token != ',') break;
   }
   if (token == ')') return true;
-  language_tell(language, sources_here(language), "a parameter of a macro is a name that is no word of the language");
+  language_tell(language, sources_here(language), "a macro's parameter must be a name that is not reserved");
   return false;
 }
 
@@ -44,18 +45,16 @@ void macro_declare(struct language *language)
   struct macro *macro = language_alloc(language, sizeof *macro);
   const bool named = directives_name(language, "#macro", &name);
   const bool whole = read_parameters(language, macro) && named;
-  macro->source = frame->source;
-  macro->base = frame->base;
-  macro->begin = frame->scan.end;
+  macro->text = (struct passage){frame->source, frame->base, frame->scan.end};
   if (whole) {
-    struct value *value = declare_global(language, &name);
+    struct value *value = symbol_begin(language, &name, false)->value;
     if (value->kind != VALUE_NONE && value->kind != VALUE_MACRO && value->kind != VALUE_UNKNOWN)
-      language_tell(language, name.place, "'%.*s' is declared already, and no macro; #undef it before",
+      language_tell(language, name.place, "'%.*s' is declared already, but not as a macro; #undef it first",
                     (int)name.length, name.text);
     *value = (struct value){.kind = VALUE_MACRO, .macro = macro};
     language->symbols->macros++;
   }
-  if (!directives_skip_to_end(language)) language_tell(language, place, "#macro without #end");
+  if (!control_skip_to_end(language)) language_tell(language, place, "#macro without #end");
 }
 
 /* Whether the arguments are as many as the parameters, and all have values. */
@@ -63,7 +62,7 @@ static bool fit(struct language *language, const struct macro *macro, const stru
                 const struct name *name)
 {
   if (count != macro->parameter_count) {
-    language_tell(language, name->place, "the macro '%.*s' has %zu parameter%s, and %zu %s given", (int)name->length,
+    language_tell(language, name->place, "the macro '%.*s' has %zu parameter%s, but %zu %s given", (int)name->length,
                   name->text, macro->parameter_count, macro->parameter_count == 1 ? "" : "s", count,
                   count == 1 ? "is" : "are");
     return false;
@@ -89,10 +88,11 @@ static void call(struct language *language, const struct macro *macro, const str
       return;
     }
     language->work += CALL_WORK;
-    sources_call(language, macro, name->place);
+    sources_call(language, &macro->text, name->place);
+    symbols_enter(language->symbols);
     const struct value *a = arguments;
     for (const struct parameter *p = macro->parameters; p && !language->ended_early; p = p->next, a = a->next)
-      declare_parameter(language, &(struct name){.text = p->name, .length = p->length, .place = name->place}, a);
+      symbol_parameter(language, &(struct name){.text = p->name, .length = p->length, .place = name->place}, a);
   }
   value_last_of_list(language, arguments);
 }

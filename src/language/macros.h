@@ -6,9 +6,7 @@
 #include "language/symbols.h"
 
 struct macro {
-  const struct source *source;
-  uint32_t base; /* where the spans of that begin */
-  size_t begin;  /* of its text, which ends at the matching #end */
+  struct passage text;
   size_t parameter_count;
   struct parameter {
     struct parameter *next;

@@ -67,17 +67,15 @@ void patch_number(struct language *language, int which, struct span item, const 
                                 {"v_steps", MAX_STEPS, true}};
   struct open_node *open = language->objects->open;
   if (open->stage != STAGE_SETTINGS) {
-    language_error(language, item, "the settings of a bicubic_patch stand before its control points");
+    language_error(language, item, "the settings of a bicubic_patch must come before its control points");
     return;
   }
-  if (open->after_comma) language_error(language, item, "a comma stands between control points only");
-  open->after_comma = false;
   open->has_type |= which == PATCH_TYPE;
   value_in_range(language, value, settings[which].name, 0, settings[which].high, settings[which].whole,
                  &open->node.net->setting[which]);
   if (which == PATCH_TYPE && open->node.net->setting[PATCH_TYPE] > 1) {
     diagnostics_warning(language->diagnostics, sources_place(language, value->place),
-                        "this type is read as 1, as POV-Ray does");
+                        "this type is read as 1, as in POV-Ray");
     open->node.net->setting[PATCH_TYPE] = 1;
   }
 }
@@ -87,22 +85,13 @@ void patch_point(struct language *language, const struct value *value)
   struct open_node *open = language->objects->open;
   if (open->stage == STAGE_MODIFIERS) {
     language_error(language, value->place,
-                   "the control points of a bicubic_patch stand before its texture and transforms");
+                   "the control points of a bicubic_patch must come before its texture and transforms");
     return;
   }
   open->stage = STAGE_BODY;
-  open->after_comma = false;
   if (open->points < PATCH_POINTS)
     value_to_vector(language, value, open->node.net->P[open->points / 4][open->points % 4]);
   open->points++;
-}
-
-void patch_comma(struct language *language, struct span place)
-{
-  struct open_node *open = language->objects->open;
-  if (open->stage == STAGE_MODIFIERS || open->after_comma)
-    language_error(language, place, "a comma stands between control points only");
-  open->after_comma = true;
 }
 
 static void points_end(struct language *language)
@@ -171,7 +160,7 @@ void union_add(struct language *language, struct node *object)
   struct open_node *open = language->objects->open;
   if (open->stage == STAGE_MODIFIERS)
     language_error_in(language, &open->block, language->objects->whole,
-                      "the objects of a union stand before its texture and transforms");
+                      "the objects of a union must come before its texture and transforms");
   add_child(language, open, object);
 }
 
@@ -191,7 +180,7 @@ static void take_object(struct language *language, struct span place, const stru
 {
   struct open_node *open = language->objects->open;
   if (open->has_object || open->stage == STAGE_MODIFIERS) {
-    language_error(language, place, "object has one object, which stands first; union has several");
+    language_error(language, place, "object { } holds one object, which must come first; use union for several");
     return;
   }
   const struct span begin = open->node.place;
@@ -221,15 +210,14 @@ void copy_named(struct language *language, const struct value *value)
 void copy_modified(struct language *language, struct span place)
 {
   struct open_node *open = language->objects->open;
-  if (!open->has_object) language_error_in(language, &open->block, place, "object wants its object first");
+  if (!open->has_object) language_error_in(language, &open->block, place, "the object in object { } must come first");
   open->stage = STAGE_MODIFIERS;
 }
 
 void copy_end(struct language *language)
 {
   const struct open_node *open = language->objects->open;
-  if (!open->has_object)
-    language_error_in(language, &open->block, open->block.place, "this object has no object in it");
+  if (!open->has_object) language_error_in(language, &open->block, open->block.place, "object { } holds no object");
 }
 
 struct value *value_of_object(struct language *language, struct node *object)
@@ -243,7 +231,7 @@ struct value *value_of_object(struct language *language, struct node *object)
 struct node *shape_pass(struct language *language, struct span place)
 {
   struct node *node = language_alloc(language, sizeof *node);
-  language_lacks_word(language, place);
+  language_lacks(language, place, place);
   node->place = place;
   language->objects->whole = span_join(place, tokens_pass_block(language));
   return node;

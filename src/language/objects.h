@@ -45,7 +45,7 @@ struct open_node {
   struct block block;
   enum stage stage;
   int points;
-  bool has_type, has_object, after_comma, own_transform;
+  bool has_type, has_object, own_transform;
 };
 
 /* Zeroed: no objects. */
@@ -58,11 +58,10 @@ struct objects {
 };
 
 /* Actions of the grammar, in the order of the text. What begins is open until its end, followed by node_end; the
- * actions between concern the innermost open node. `place`: that of the word, of the name or of the comma. */
+ * actions between concern the innermost open node. `place`: that of the word or of the name. */
 void patch_begin(struct language *language, struct span place);
 void patch_number(struct language *language, int which, struct span item, const struct value *value);
 void patch_point(struct language *language, const struct value *value);
-void patch_comma(struct language *language, struct span place);
 void patch_modified(struct language *language);
 void patch_solver(struct language *language);
 void patch_end(struct language *language);

@@ -26,36 +26,6 @@ void scan_numbers(struct scan *scan, const char *text, size_t length, int count)
   }
 }
 
-/* The end of the comment that text begins with; `length` if it is not closed. */
-static size_t comment_end(const char *text, size_t length)
-{
-  size_t at = 2;
-  if (text[1] == '/') {
-    while (at < length && text[at] != '\n' && text[at] != '\r') at++;
-    return at;
-  }
-  for (int depth = 1; at + 1 < length; at++) {
-    const bool opens = text[at] == '/' && text[at + 1] == '*', closes = text[at] == '*' && text[at + 1] == '/';
-    if (!opens && !closes) continue;
-    depth += opens - closes;
-    at++;
-    if (depth == 0) return at + 1;
-  }
-  return length;
-}
-
-bool scan_comments_lead_to_word(const char *text, size_t length)
-{
-  for (size_t at = 0; at < length;) {
-    const char c = text[at];
-    if (c == ' ' || (c >= '\t' && c <= '\r')) at++;
-    else if (c == '/' && at + 1 < length && (text[at + 1] == '/' || text[at + 1] == '*'))
-      at += comment_end(text + at, length - at);
-    else return c == '_' || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-  }
-  return false;
-}
-
 bool scan_is_word(int token)
 {
   return token > 255 && token < TOKEN_FIRST_PRIVATE && token != PSCN_TOKEN_NUMBER && token != PSCN_TOKEN_POINT &&

@@ -14,9 +14,7 @@ enum {
   TOKEN_OPEN_COMMENT,
   TOKEN_OPEN_STRING,
   TOKEN_BAD_CHARACTER,
-  TOKEN_SECOND_POINT,  /* a number with a second point, and what follows it; scan->number[0] is 1 */
-  TOKEN_OTHER_LETTERS, /* a name with letters that are not ASCII */
-  TOKEN_OPEN_EXPONENT, /* a number whose exponent has no digits, and the word that begins there; scan->number[0] is 1 */
+  TOKEN_BAD_NUMBER, /* one with a second point, or an exponent without digits; scan->number[0] is 1 */
   TOKEN_FIRST_DIRECTIVE,
   TOKEN_INCLUDE,
   TOKEN_IFDEF,
@@ -45,10 +43,8 @@ struct scan {
   void *scanner;
   size_t begin, end; /* bytes of the last token: [begin, end) */
   size_t length;     /* of the text */
-  bool hash;         /* a # and comments precede the next word */
   size_t comment_begin;
   int comment_depth;
-  size_t bad_end;   /* the end of the last characters that mean nothing */
   double number[3]; /* values of PSCN_TOKEN_NUMBER ([0]) and PSCN_TOKEN_POINT */
   bool too_large;   /* one of them is too large: at these bytes */
   size_t too_large_begin, too_large_end;
@@ -75,9 +71,6 @@ void scan_digit(struct scan *scan, char digit);
 /* Reads `count` numbers from the last token's text into scan->number, and notes the bytes of the first that is too
  * large. */
 void scan_numbers(struct scan *scan, const char *text, size_t length, int count);
-
-/* Whether text[0 .. length-1], which follows a #, is comments and then a word, as POV-Ray allows. */
-bool scan_comments_lead_to_word(const char *text, size_t length);
 
 /* Whether a token is a word: a name, or a word of the language or of POV-Ray's; no directive. */
 bool scan_is_word(int token);

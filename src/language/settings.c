@@ -17,9 +17,6 @@
 /* Beyond it, no colour but white is left of a picture. */
 #define GAMMA_HIGH 1000
 
-/* POV-Ray's largest. Here there are no further levels to trace. */
-enum { MAX_TRACE_LEVEL = 256 };
-
 void settings_default(struct settings *out)
 {
   *out = (struct settings){.ambient_light = {1, 1, 1}, .version = VERSION_READ};
@@ -40,6 +37,8 @@ void global_gamma(struct language *language, struct span place, const struct val
 {
   struct settings *settings = language->settings;
   double gamma = GAMMA_SRGB;
+  if (!value && sources_name(language, place).text[0] != 's')
+    language_error(language, place, "assumed_gamma is a number or srgb");
   if (value && !value_in_range(language, value, "assumed_gamma", DBL_MIN, GAMMA_HIGH, false, &gamma)) return;
   if (settings->gamma_said)
     diagnostics_warning(language->diagnostics, sources_place(language, place),
@@ -53,12 +52,6 @@ double settings_gamma(const struct settings *settings)
 {
   if (settings->gamma_said) return settings->gamma;
   return settings->version_said && settings->version >= VERSION_READ ? 1 : GAMMA_SRGB;
-}
-
-void global_trace_level(struct language *language, const struct value *value)
-{
-  double unused;
-  value_in_range(language, value, "max_trace_level", 1, MAX_TRACE_LEVEL, true, &unused);
 }
 
 void global_ambient(struct language *language, const struct value *value)
@@ -109,10 +102,9 @@ void light_begin(struct language *language, struct span place)
 void light_value(struct language *language, const struct value *value)
 {
   struct light_node *light = language->settings->light;
-  light->after_comma = false;
   if (light->modified) {
     language_error_in(language, &light->block, value->place,
-                      "the position and the colour of a light_source stand before what else there is");
+                      "the position and the colour of a light_source must come before its other items");
   }
   switch (light->values++) {
   case 0: value_to_vector(language, value, light->light.position); break;
@@ -123,18 +115,11 @@ void light_value(struct language *language, const struct value *value)
   }
 }
 
-void light_comma(struct language *language, struct span place)
-{
-  struct light_node *light = language->settings->light;
-  if (light->values != 1 || light->after_comma)
-    language_error(language, place, "a comma stands between a light's position and its colour only");
-  light->after_comma = true;
-}
-
 static struct light_node *modified_light(struct language *language, struct span place)
 {
   struct light_node *light = language->settings->light;
-  if (light->values == 0) language_error_in(language, &light->block, place, "light_source begins with its position");
+  if (light->values == 0)
+    language_error_in(language, &light->block, place, "light_source must begin with its position");
   light->modified = true;
   return light;
 }

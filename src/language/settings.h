@@ -12,7 +12,7 @@ struct light_node {
   struct transform transform;
   struct block block;
   int values; /* how many have come: position, colour */
-  bool after_comma, modified;
+  bool modified;
 };
 
 /* What the statements have said so far. */
@@ -30,10 +30,10 @@ struct settings {
 void settings_default(struct settings *out);
 /* Actions of the grammar, in the order of the text. Between a begin and its end they concern that block. */
 void language_version(struct language *language, const struct value *value);
-void global_gamma(struct language *language, struct span place, const struct value *value); /* NULL: srgb */
+void global_gamma(struct language *language, struct span place,
+                  const struct value *value); /* NULL: the word at `place` */
 /* At the end, the space of the scene's colours. */
 double settings_gamma(const struct settings *settings);
-void global_trace_level(struct language *language, const struct value *value);
 void global_ambient(struct language *language, const struct value *value);
 void global_solver(struct language *language);
 void background_begin(struct language *language, struct span place);
@@ -41,7 +41,6 @@ void background_value(struct language *language, const struct value *value);
 void background_end(struct language *language);
 void light_begin(struct language *language, struct span place);
 void light_value(struct language *language, const struct value *value);
-void light_comma(struct language *language, struct span place);
 void light_shadowless(struct language *language, struct span place);
 void light_transform(struct language *language, const struct transform *transform);
 void light_end(struct language *language);

@@ -21,7 +21,7 @@ static void tell_unknown(struct language *language, const char *what, const stru
                    word->text, guess.best);
   } else {
     language_error(language, word->place, "there is no %s '%.*s'%s%s", what, (int)word->length, word->text,
-                   list[0] ? ", only " : "", list);
+                   list[0] ? "; use " : "", list);
   }
 }
 
@@ -69,7 +69,7 @@ static void tell_wanted(struct language *language, struct span place, const stru
   words_list(item->keywords, count, words, sizeof words);
   if (item->kind != METHOD_ITEM_KEYWORD)
     range_text(item->minimum, item->maximum, item->kind == METHOD_ITEM_INTEGER, range);
-  language_error(language, place, "%s is %s%s%s", item->name, words, words[0] && range[0] ? " or " : "", range);
+  language_error(language, place, "%s must be %s%s%s", item->name, words, words[0] && range[0] ? " or " : "", range);
 }
 
 /* Sets an item. Those behind it in the table that it sets as well (`form paper` does) must not stand before it. */
@@ -118,5 +118,5 @@ void solver_word(struct language *language, struct span name, struct span place)
 
 void solver_misplaced(struct language *language, struct span place)
 {
-  language_error(language, place, "solver stands in global_settings or in a bicubic_patch");
+  language_error(language, place, "solver must be in global_settings or in a bicubic_patch");
 }

@@ -4,16 +4,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
-
-#include "base/memory.h"
-#include "language/include_path.h"
-#include "language/macros.h"
-
-enum {
-  MAX_INCLUDE_DEPTH = 32,
-  MAX_SOURCES = 10000 /* even without a cycle, files can ask for any number of reads */
-};
 
 __extension__ typedef unsigned __int128 hash_type;
 
@@ -73,14 +63,6 @@ static bool remember(struct language *language, struct source *source)
   return true;
 }
 
-/* Whether the text is UTF-16: it begins with a byte order mark of that, or with two characters of ASCII. */
-static bool is_wide(const struct source *source)
-{
-  const unsigned char *t = (const unsigned char *)source->text;
-  if (source->length >= 2 && ((t[0] == 0xFF && t[1] == 0xFE) || (t[0] == 0xFE && t[1] == 0xFF))) return true;
-  return source->length >= 4 && (t[0] == 0) == (t[2] == 0) && (t[1] == 0) == (t[3] == 0) && (t[0] == 0) != (t[1] == 0);
-}
-
 static bool open_frame(struct language *language, const struct frame *frame)
 {
   struct sources *sources = language->sources;
@@ -102,26 +84,20 @@ bool sources_open(struct language *language, struct source *source)
     source_destroy(source);
     return false;
   }
-  const bool wide = is_wide(source);
-  if (wide) memset(source->text, 0, source->length), source->length = 0;
   language->sources->included++;
-  if (!open_frame(language, &(struct frame){.source = source, .base = language->sources->all->base})) return false;
-  if (wide)
-    language_tell(language, sources_span(language->sources->frame, 0, 0), "this is UTF-16: save it as UTF-8 or ASCII");
-  return true;
+  return open_frame(language, &(struct frame){.source = source, .base = language->sources->all->base});
 }
 
-void sources_call(struct language *language, const struct macro *macro, struct span called)
+void sources_call(struct language *language, const struct passage *text, struct span called)
 {
-  source_recall(macro->source);
+  source_recall(text->source);
   if (!open_frame(language,
-                  &(struct frame){.source = macro->source, .base = macro->base, .macro = macro, .called = called})) {
+                  &(struct frame){.source = text->source, .base = text->base, .macro = true, .called = called})) {
     language->ended_early = true;
     return;
   }
   language->sources->again++;
-  pscn_scan_seek(&language->sources->frame->scan, macro->begin);
-  symbols_enter(language->symbols);
+  pscn_scan_seek(&language->sources->frame->scan, text->begin);
 }
 
 struct condition *sources_open_condition(struct language *language, enum opener opener, struct span place)
@@ -129,10 +105,7 @@ struct condition *sources_open_condition(struct language *language, enum opener 
   struct sources *sources = language->sources;
   struct frame *frame = sources->frame;
   struct condition *condition = sources->closed;
-  if (frame->conditions == MAX_CONDITIONS) {
-    language_limit(language, place, "conditions and loops are nested more than 200 deep");
-    return NULL;
-  }
+  if (frame->conditions == MAX_CONDITIONS) return NULL;
   if (condition) sources->closed = condition->outer;
   else condition = language_alloc(language, sizeof *condition);
   if (language->ended_early) return NULL;
@@ -234,10 +207,9 @@ void sources_leave(struct language *language)
   struct sources *sources = language->sources;
   struct frame *frame = sources->frame;
   while (frame->condition) sources_close_condition(language);
-  if (frame->outer) symbols_leave(language->symbols);
   sources->frame = frame->outer;
   sources->included -= !frame->macro;
-  sources->again -= frame->macro != NULL;
+  sources->again -= frame->macro;
   if (frame->outer) language->number = frame->outer->scan.number;
   pscn_scan_close(&frame->scan);
   frame->outer = sources->unused;
@@ -251,33 +223,9 @@ void sources_close(struct language *language)
     source_destroy(entry->source);
 }
 
-static bool same_file(const struct source *a, const struct source *b)
+const struct source *sources_of_file(const struct sources *sources, uint64_t device, uint64_t inode)
 {
-  return a->device == b->device && a->inode == b->inode;
-}
-
-/* Reports a cycle: the names from the file's outermost reading to the one that includes it again, as in
- * "a.pscn -> b.inc -> ". */
-static void tell_cycle(struct language *language, struct span place, const struct source *again)
-{
-  const struct frame *chain[MAX_INCLUDE_DEPTH + 1];
-  int count = 0;
-  for (const struct frame *f = language->sources->frame; f; f = f->outer) {
-    chain[count++] = f;
-    if (same_file(f->source, again)) break;
-  }
-  char text[1000];
-  size_t used = 0;
-  while (count-- > 0 && used < sizeof text)
-    used += (size_t)snprintf(text + used, sizeof text - used, "%s -> ", chain[count]->source->name);
-  language_tell(language, place, "files include each other: %s%s", text, again->name);
-}
-
-/* The first source of that file, if it has been read already. */
-static const struct source *known_file(const struct language *language, uint64_t device, uint64_t inode)
-{
-  const struct table_entry *entry = table_find(&language->sources->files, (uint64_t[]){device, inode},
-                                               2 * sizeof(uint64_t));
+  const struct table_entry *entry = table_find(&sources->files, (uint64_t[]){device, inode}, 2 * sizeof(uint64_t));
   for (; entry; entry = entry->older) {
     const struct source *source = ((const struct source_list *)entry)->source;
     if (source->device == device && source->inode == inode) return source;
@@ -285,125 +233,9 @@ static const struct source *known_file(const struct language *language, uint64_t
   return NULL;
 }
 
-static bool is_open(const struct language *language, const struct source *source)
-{
-  const struct frame *f = language->sources->frame;
-  while (f && !same_file(f->source, source)) f = f->outer;
-  return f != NULL;
-}
-
-static const struct source *scene_source(const struct sources *sources)
+const struct source *sources_scene(const struct sources *sources)
 {
   const struct frame *frame = sources->frame;
   while (frame->outer) frame = frame->outer;
   return frame->source;
-}
-
-/* Says as little of a file as if it were not there. */
-static void tell_not_below(struct language *language, struct span place)
-{
-  language_tell(language, place, "there is no such file below the scene's folder or another allowed one (--untrusted)");
-}
-
-/* Reads the file, of a stranger's scene only if it is in these folders or below them. */
-static enum status read_file(const char *path, const struct include_folders *folders, struct source **out,
-                             const char **out_reason)
-{
-  const int file = input_open(path, INPUT_FILE, out_reason);
-  if (file < 0) return STATUS_FILE;
-  if (!folders || include_is_below(folders, file)) return source_read_open(path, file, out, out_reason);
-  (void)close(file);
-  return STATUS_FILE;
-}
-
-/* Reads the file named at `place`, quotes included. Returns NULL after reporting an error. */
-static struct source *read_included(struct language *language, struct span place)
-{
-  const struct name quoted = sources_name(language, place);
-  const char *name = quoted.text + 1, *reason;
-  const size_t length = quoted.length - 2;
-  if (memchr(name, '\n', length)) {
-    language_tell(language, place, "a file name stands on one line: this quote is not closed there");
-    return NULL;
-  }
-  if (memchr(name, '"', length)) {
-    language_tell(language, place, "a file name holds no quote");
-    return NULL;
-  }
-  if (language->untrusted && !include_is_modest(name, length)) {
-    tell_not_below(language, place);
-    return NULL;
-  }
-  uint64_t device, inode;
-  const struct include_folders folders = {scene_source(language->sources), language->sources->frame->source,
-                                          language->sources->folders};
-  const char *path = include_path(language->arena, &folders, name, length, &device, &inode);
-  struct source *source = NULL;
-  if (!path) {
-    language->ended_early = true;
-    return NULL;
-  }
-  const struct source *known = known_file(language, device, inode);
-  enum status status = STATUS_OK;
-  if (known) source = source_share(known, path);
-  else status = read_file(path, language->untrusted ? &folders : NULL, &source, &reason);
-  if (status == STATUS_FILE && language->untrusted) {
-    tell_not_below(language, place);
-    return NULL;
-  }
-  if (status == STATUS_FILE) {
-    language_tell(language, place, "cannot include '%.300s': %s", path, reason);
-    return NULL;
-  }
-  if (!source) {
-    if (memory_limit_reached()) reason = "reading takes more memory than is allowed; --max-memory allows more";
-    else if (known) reason = "memory is short";
-    language_limit(language, place, reason);
-    return NULL;
-  }
-  if (is_open(language, source)) {
-    tell_cycle(language, place, source);
-    source_destroy(source);
-    return NULL;
-  }
-  return source;
-}
-
-void sources_tell_open_string(struct language *language)
-{
-  language_tell(language, sources_here(language), "this quote is not closed");
-}
-
-void sources_include(struct language *language)
-{
-  const int token = pscn_scan_next(&language->sources->frame->scan);
-  const struct span place = sources_here(language);
-  if (token == TOKEN_OPEN_STRING) {
-    sources_tell_open_string(language);
-    return;
-  }
-  if (token != PSCN_TOKEN_STRING) {
-    language_tell(language, place, "#include wants a file name in quotes");
-    return;
-  }
-  if (language->sources->included > MAX_INCLUDE_DEPTH) {
-    language_tell(language, place, "files are included more than %d deep", MAX_INCLUDE_DEPTH);
-    return;
-  }
-  if (language->sources->count == MAX_SOURCES) {
-    language_limit(language, place, "more than 10000 files are included");
-    return;
-  }
-  struct source *source = read_included(language, place);
-  if (!source) return;
-  if (source->length >= UINT32_MAX - language->sources->end) { /* a minute's reading, and the most that spans can
-                                                                  express */
-    language_limit(language, place, "more than 4 GiB of text are included");
-    source_destroy(source);
-    return;
-  }
-  source->includer = language->sources->frame->source;
-  source->include_begin = language->sources->frame->scan.begin;
-  if (!sources_open(language, source)) language->ended_early = true;
-  else symbols_enter(language->symbols);
 }

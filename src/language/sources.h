@@ -1,9 +1,10 @@
-/* The stack of sources being read: the scene and what it includes. */
+/* The stack of sources being read: the scene, what it includes, and the macros called; and the places of their words. */
 #ifndef PSCN_LANGUAGE_SOURCES_H
 #define PSCN_LANGUAGE_SOURCES_H
 
 #include "language/scan.h"
-#include "language/symbols.h"
+#include "language/state.h"
+#include "base/table.h"
 #include "scene/scene.h"
 
 /* What an #end ends. */
@@ -23,6 +24,13 @@ struct condition {
 
 enum { MAX_CONDITIONS = 200 }; /* open in one source */
 
+/* A macro's text, from byte `begin` of that source on; its #end ends it. */
+struct passage {
+  const struct source *source;
+  uint32_t base; /* where the spans of the source begin */
+  size_t begin;
+};
+
 /* A source being read, or the text of a macro. */
 struct frame {
   struct frame *outer;
@@ -31,8 +39,8 @@ struct frame {
   struct scan scan;
   struct condition *condition; /* the innermost that is open */
   int conditions;
-  const struct macro *macro; /* NULL: a whole source */
-  struct span called;        /* the macro, where */
+  bool macro;         /* not a whole source */
+  struct span called; /* the macro, where */
 };
 
 /* Zeroed: no sources. */
@@ -55,11 +63,9 @@ bool sources_open(struct language *language, struct source *source);
 /* Writes the names of the files that were read to the scene; false if memory is short. */
 bool sources_list(const struct language *language, struct scene *scene);
 
-/* Reads the file name behind #include and begins to read that file, or reports an error. */
-void sources_include(struct language *language);
-
-/* Reports the unclosed quote at the last token. */
-void sources_tell_open_string(struct language *language);
+/* The source of the scene; and the first of that file, or NULL. */
+const struct source *sources_scene(const struct sources *sources);
+const struct source *sources_of_file(const struct sources *sources, uint64_t device, uint64_t inode);
 
 /* Whether the text being read stays in memory: that of a macro, which may declare names again and again. */
 static inline bool sources_stays(const struct language *language)
@@ -70,10 +76,10 @@ static inline bool sources_stays(const struct language *language)
 /* The text read so far is needed only for errors now: gives back the memory of a long one. */
 void sources_pass(struct language *language);
 
-/* Begins to read the text of a macro, which is in that source, named at `called`. */
-void sources_call(struct language *language, const struct macro *macro, struct span called);
+/* Begins to read the text of a macro, named at `called`. */
+void sources_call(struct language *language, const struct passage *text, struct span called);
 
-/* Opens and closes a condition or a loop in the source being read; NULL, after an error, if there are too many. */
+/* Opens and closes a condition or a loop in the source being read; NULL if there are too many. */
 struct condition *sources_open_condition(struct language *language, enum opener opener, struct span place);
 void sources_close_condition(struct language *language);
 
@@ -103,7 +109,7 @@ struct place sources_place(const struct language *language, struct span span);
 /* Whether the span is in the file being read. */
 bool sources_has(const struct language *language, struct span span);
 
-/* The word at the span, which has been read just now. */
+/* The text at the span, which has been read just now, or whose source has been recalled. */
 struct name sources_name(const struct language *language, struct span span);
 
 #endif

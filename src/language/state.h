@@ -1,5 +1,6 @@
-/* An error is reported where it is found, and reading goes on with a harmless value, so that one run finds many. A
- * scene is made only if there was none. What each part of the room keeps while reading is in its own header. */
+/* The state of one reading, and its memory. What each part of the room keeps while reading is in its own header.
+ *
+ * Each header needs only those before it: state, sources (text and places), errors, symbols (names), values, declare. */
 #ifndef PSCN_LANGUAGE_STATE_H
 #define PSCN_LANGUAGE_STATE_H
 
@@ -65,7 +66,6 @@ struct language {
   bool untrusted;                         /* settings.untrusted */
   bool ended_early;                       /* out of memory, or a stated limit: STATUS_LIMIT */
   bool limit_told;                        /* it was a stated limit, which is reported */
-  struct span letters;                    /* the last word reported for its letters */
   struct span unknown;                    /* the last word reported as unknown */
   struct declaration *declaration;        /* the innermost that is open, or NULL */
   struct value *layered;                  /* the declared texture that more layers may follow, or NULL */
@@ -93,8 +93,8 @@ struct language {
   struct texture *texture;               /* the innermost that is open */
   const struct texture *texture_default; /* as the last #default left it */
   struct transform *transform;           /* the last statement's */
+  struct transforms *transforms;         /* the innermost transform { } that is open */
   struct span transform_place;           /* its place */
-  struct matrix *matrix;                 /* numbers of the last one */
   struct transform_angles *angles;       /* of rotations */
   struct method *method;                 /* of the last solver statement */
   struct span method_name;               /* the word in it that names the solver */
@@ -103,38 +103,6 @@ struct language {
   struct camera_items *camera;
   struct settings *settings;
 };
-
-/* Reports an error in how files are put together: in comments, quotes, conditions or blocks as a whole. */
-void language_tell(struct language *language, struct span place, const char *format, ...)
-  __attribute__((format(printf, 3, 4)));
-
-/* Reports an error in what the text means, unless it is idle. */
-void language_error(struct language *language, struct span place, const char *format, ...)
-  __attribute__((format(printf, 3, 4)));
-
-/* Whether what is being read cannot matter: the branch of a choice that is not chosen; or the rest of a declaration
- * with what pscn lacks, which is reported where its name is used, because libraries declare more than a scene uses. */
-bool language_idle(const struct language *language);
-
-/* Handles what pscn lacks, a word or something else with a name, in place of which there is something, or "": an
- * error, or left out if that is allowed; in a declaration, kept for its uses. */
-void language_lacks(struct language *language, struct span place, const struct name *what, const char *instead);
-void language_lacks_word(struct language *language, struct span place);
-/* The name used here was declared without what is at the place. */
-void language_left_out(struct language *language, struct span place);
-/* The same of a word that cannot be left out. */
-void language_refuses(struct language *language, struct span place);
-/* At the end, reports what was left out. */
-void language_tell_left_out(struct language *language);
-
-struct block language_block(const struct language *language, struct span place);
-/* Whether no error has been reported since the block began. If one has, what is missing in it may be a consequence. */
-bool language_sound(const struct language *language, const struct block *block);
-/* Reports an error about a block, if the block is sound. */
-void language_error_in(struct language *language, const struct block *block, struct span place, const char *text);
-
-/* Reports a stated limit: reading ends at the next token, with STATUS_LIMIT. */
-void language_limit(struct language *language, struct span place, const char *text);
 
 /* Whether nothing more is read. */
 static inline bool language_ended(const struct language *language)

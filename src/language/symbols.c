@@ -4,14 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "language/hints.h"
-#include "language/arrays.h"
-#include "language/settings.h"
 #include "language/sources.h"
-#include "language/tokens.h"
-
-/* From this version on, POV-Ray declares a colour's component as a number. */
-#define VERSION_COLOURS 3.5
+#include "language/textures.h"
 
 /* The innermost symbol of that name; if `depth` is at least 0, only one of that depth. */
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
@@ -83,19 +77,10 @@ bool symbol_known(const struct language *language, const struct name *name)
   return find(language->symbols, name->text, name->length, -1) != NULL;
 }
 
-/* ---- what is told of names ---- */
+/* ---- what is reported of names ---- */
 
 /* The most names that one reading considers for guesses: half a second's work if all are long. */
 enum { MOST_CONSIDERED = 100000 };
-
-/* A name that was unknown. */
-struct missed {
-  struct table_entry entry;
-  const char *name;
-  size_t length, times;
-  struct span last;
-  struct missed *next; /* the one found unknown before it */
-};
 
 void guess_symbols(struct guess *guess, struct language *language)
 {
@@ -104,85 +89,27 @@ void guess_symbols(struct guess *guess, struct language *language)
   for (int k = 0; k < 2; k++) {
     const struct symbol *s = lists[k];
     for (; s && symbols->considered < MOST_CONSIDERED; s = s->before, symbols->considered++)
-      if (!s->gone && s->value->kind != VALUE_NONE) guess_consider(guess, s->name, s->length);
+      if (!s->gone && s->value->kind < VALUE_NONE) guess_consider(guess, s->name, s->length);
   }
 }
 
-/* Counts a name that is missing. Returns how often it was missing before. */
-static size_t count_missed(struct language *language, const struct name *name)
-{
-  struct symbols *symbols = language->symbols;
-  struct missed *missed = (struct missed *)table_find(&symbols->missing, name->text, name->length);
-  while (missed && (missed->length != name->length || memcmp(missed->name, name->text, name->length) != 0))
-    missed = (struct missed *)missed->entry.older;
-  if (!missed) {
-    missed = language_alloc(language, sizeof *missed);
-    const char *kept = language_keep(language, name->text, name->length);
-    if (language->ended_early) return 0;
-    *missed = (struct missed){.name = kept, .length = name->length, .next = symbols->missed};
-    symbols->missed = missed;
-    if (!table_add(&symbols->missing, language->arena, &missed->entry, name->text, name->length))
-      language->ended_early = true;
-  }
-  missed->last = name->place;
-  return missed->times++;
-}
-
-/* A name that is missing in many places is reported once; how often it is missing is reported at the end. */
+/* A name is reported once. */
 static void tell_unknown(struct language *language, const struct name *name, const char *wanted)
 {
   language->unknown = name->place;
-  if (language_idle(language) || count_missed(language, name) > 0) return;
-  const char *file = hint_file(name->text, name->length);
-  if (file) {
-    language_error(language, name->place, "'%.*s' is not declared: #include \"%s\" declares it", (int)name->length,
-                   name->text, file);
-    return;
-  }
+  if (language->idle > 0) return;
   struct guess guess = guess_begin(name->text, name->length);
   if (!diagnostics_full(language->diagnostics)) { /* else the guess would not be read */
     guess_symbols(&guess, language);
-    guess_keywords(&guess);
+    if (name->text[0] > 'Z') guess_keywords(&guess);
   }
-  if (guess.best) {
+  if (guess.best)
     language_error(language, name->place, "unknown word '%.*s'; did you mean '%.*s'?", (int)name->length, name->text,
                    (int)guess.best_length, guess.best);
-  } else {
-    language_error(language, name->place, "'%.*s' is not declared; %s is wanted here", (int)name->length, name->text,
-                   wanted);
-  }
-}
-
-void symbols_tell_missed(struct language *language)
-{
-  for (const struct missed *m = language->symbols->missed; m; m = m->next) {
-    if (m->times > 1)
-      language_error(language, m->last, "'%.*s' is missing here as well, in %zu places in all", (int)m->length, m->name,
-                     m->times);
-  }
-}
-
-/* Reports, at the first use of a name, what its declaration has that pscn lacks. Another declaration that uses it lacks
- * the same. */
-static void tell_foreign(struct language *language, const struct value *value)
-{
-  const struct name name = sources_name(language, value->place);
-  struct declaration *declaration = language->declaration;
-  if (declaration) {
-    if (span_begin(declaration->lacks) == 0) declaration->lacks = value->lacks;
-    return;
-  }
-  if (value->named) {
-    if (value->named->told) return;
-    value->named->told = true;
-  }
-  const struct place lacks = sources_place(language, value->lacks);
-  if (!lacks.source) return;
-  const struct source_position at = source_locate(lacks.source, lacks.begin);
-  const bool refused = words_token(lacks.source->text + lacks.begin, lacks.end - lacks.begin) == PSCN_TOKEN_REFUSED;
-  language_error(language, value->place, "'%.*s' is declared with '%.*s' (%s:%zu), which is not supported%s",
-                 (int)name.length, name.text, (int)(lacks.end - lacks.begin), lacks.source->text + lacks.begin,
-                 lacks.source->name, at.line, refused ? "" : "; --lenient leaves it out");
+  else
+    language_error(language, name->place, "'%.*s' is not declared; expected %s%s", (int)name->length, name->text,
+                   wanted, strcmp(wanted, "a colour") == 0 ? "; colors.inc declares POV-Ray's" : "");
+  symbol_begin(language, name, false)->value->kind = VALUE_UNKNOWN;
 }
 
 static const char *kind_name(const struct value *value)
@@ -194,35 +121,38 @@ static const char *kind_name(const struct value *value)
   case VALUE_STRING: return "a string";
   case VALUE_ARRAY: return "an array";
   case VALUE_TEXTURE: return texture_kind(value->texture);
+  case VALUE_TRANSFORM: return "a transform";
   case VALUE_OBJECT: return "an object";
   default: return "a macro";
   }
 }
 
-void symbol_mistaken(struct language *language, const struct value *value, const char *wanted)
+void symbol_lacks(struct language *language, const struct value *value)
 {
-  if (value->kind == VALUE_UNKNOWN) return;
-  const struct name name = sources_name(language, value->place);
-  switch (value->kind) {
-  case VALUE_NONE:
-    if (value->named) language_error(language, value->place, "this element of the array has no value");
-    else tell_unknown(language, &name, wanted);
-    return;
-  case VALUE_FOREIGN: tell_foreign(language, value); return;
-  default: break;
-  }
-  if (value->named)
-    language_error(language, value->place, "'%.*s' is %s; %s is wanted here", (int)name.length, name.text,
-                   kind_name(value), wanted);
-  else language_error(language, value->place, "%s is wanted here, not %s", wanted, kind_name(value));
+  if (span_begin(value->lacks) > 0) language_lacks(language, value->place, value->lacks);
 }
 
-/* ---- declarations ---- */
+void symbol_mistaken(struct language *language, const struct value *value, const char *wanted)
+{
+  if (value->kind == VALUE_UNKNOWN) {
+    symbol_lacks(language, value);
+    return;
+  }
+  const struct name name = sources_name(language, value->place);
+  if (value->kind == VALUE_NONE && !value->named) tell_unknown(language, &name, wanted);
+  else if (value->kind == VALUE_NONE) language_error(language, value->place, "this element of the array has no value");
+  else if (value->named)
+    language_error(language, value->place, "'%.*s' is %s; expected %s", (int)name.length, name.text, kind_name(value),
+                   wanted);
+  else language_error(language, value->place, "expected %s, not %s", wanted, kind_name(value));
+}
+
+/* ---- writing them ---- */
 
 /* As in POV-Ray, #local writes to a name of this file or macro, and #declare to the innermost one there is, or else to a
  * global one. Which one is decided before the value is read. A declaration within the first one of its own name hides
  * that one; within a later one, the outer declaration is the last to write. */
-static struct symbol *symbol_begin(struct language *language, const struct name *name, bool local)
+struct symbol *symbol_begin(struct language *language, const struct name *name, bool local)
 {
   const int depth = local ? language->symbols->depth : -1;
   struct symbol *symbol = find(language->symbols, name->text, name->length, depth);
@@ -230,17 +160,7 @@ static struct symbol *symbol_begin(struct language *language, const struct name 
   return symbol;
 }
 
-struct value *declare_local(struct language *language, const struct name *name)
-{
-  return symbol_begin(language, name, true)->value;
-}
-
-struct value *declare_global(struct language *language, const struct name *name)
-{
-  return symbol_begin(language, name, false)->value;
-}
-
-void declare_parameter(struct language *language, const struct name *name, const struct value *argument)
+void symbol_parameter(struct language *language, const struct name *name, const struct value *argument)
 {
   struct symbol *symbol = add(language, name, language->symbols->depth);
   symbol->own = *argument;
@@ -248,127 +168,8 @@ void declare_parameter(struct language *language, const struct name *name, const
   if (argument->named) symbol->value = argument->named;
 }
 
-/* The file ends, and POV-Ray loses such a name, or crashes. */
-void declare_left_open(struct language *language, struct span end)
-{
-  for (const struct declaration *d = language->declaration; d; d = d->outer) {
-    if (d->depth == 0 || d->depth < language->symbols->depth) continue;
-    const struct name name = sources_name(language, d->name);
-    language_tell(language, end, "this ends within the declaration of its #local '%.*s'", (int)name.length, name.text);
-  }
-}
-
-static struct declaration *open_declaration(struct language *language, const struct declaration *declaration)
-{
-  struct declaration *open = language->symbols->ended;
-  if (open) language->symbols->ended = open->outer;
-  else open = language_alloc(language, sizeof *open);
-  *open = *declaration;
-  open->frame = language->sources->frame;
-  open->braces = language->tokens->depth;
-  open->outer = language->declaration;
-  language->layered = NULL;
-  return language->declaration = open;
-}
-
-struct declaration *declare_begin(struct language *language, struct value *target, const struct span *local)
-{
-  const struct name name = sources_name(language, target->place);
-  if (local && !sources_has(language, *local))
-    language_tell(language, *local, "a #local stands in one file with its name and =");
-  const struct symbol *symbol = symbol_begin(language, &name, local != NULL);
-  struct value *to = symbol->value;
-  if (target->next) to = array_element(language, to, target);
-  else if (to->kind == VALUE_MACRO)
-    language_tell(language, name.place, "'%.*s' is a macro already; #undef it before", (int)name.length, name.text);
-  value_last_of_list(language, target);
-  return open_declaration(language, &(struct declaration){.to = to ? to : value_of(language, VALUE_UNKNOWN, name.place),
-                                                          .name = name.place,
-                                                          .depth = symbol->depth});
-}
-
-void declare_again(struct language *language, struct value *value)
-{
-  struct declaration *open = open_declaration(language, &(struct declaration){.to = value});
-  open->lacks = value->lacks;
-}
-
-static void declare_end(struct language *language, struct declaration *declaration)
-{
-  language->declaration = declaration->outer;
-  language->declared++;
-  if (language->ended_early) return; /* it may be the spare block */
-  declaration->outer = language->symbols->ended;
-  language->symbols->ended = declaration;
-}
-
-static void set(struct language *language, struct value *to, const struct value *value)
-{
-  struct array *copy = value->kind == VALUE_ARRAY ? array_copy(language, value->array) : NULL;
-  *to = *value;
-  to->named = to->next = NULL;
-  to->component = to->wide = to->bare = false;
-  to->open = to->kind == VALUE_VECTOR;
-  if (copy) to->array = copy;
-}
-
-static bool is_of_name(char c)
-{
-  return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-
-/* Whether the text at a place begins with a colour's name. */
-static bool begins_with_colour(const struct language *language, struct span place)
-{
-  struct name name = sources_name(language, place);
-  const size_t most = name.length;
-  for (name.length = 0; name.length < most && is_of_name(name.text[name.length]);) name.length++;
-  const struct value *value = symbol_find(language, name.text, name.length);
-  return value && value->kind == VALUE_COLOUR;
-}
-
-void declare_value(struct language *language, struct declaration *declaration, const struct value *value)
-{
-  if (value->bare)
-    language_error(language, value->place, "POV-Ray ends a declaration before the part of a colour; write color first");
-  if (language->settings->version < VERSION_COLOURS && (value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR) &&
-      begins_with_colour(language, value->place))
-    language_error(
-      language, value->place,
-      "before version 3.5 what begins with a colour's name is declared as a colour; put this in parentheses");
-  if (value->kind >= VALUE_MACRO) symbol_mistaken(language, value, "a value");
-  struct value *to = declaration->to;
-  const bool lacks = span_begin(declaration->lacks) > 0;
-  if (lacks && (!language->lenient || value->kind >= VALUE_MACRO)) *to = (struct value){.kind = VALUE_FOREIGN};
-  else if (value->kind >= VALUE_MACRO) *to = (struct value){.kind = VALUE_UNKNOWN};
-  else value_set(language, to, value);
-  to->lacks = declaration->lacks;
-  declare_end(language, declaration);
-}
-
-void declare_open(struct language *language, struct declaration *declaration, const struct value *value)
-{
-  const struct name name = sources_name(language, language->tokens->last.place);
-  if (value->kind <= VALUE_COLOUR && !language_ended(language))
-    language_tell(language, name.place,
-                  name.length ? "unexpected '%.*s', expected ';'" : "the text ends here%.*s, expected ';'",
-                  (int)name.length, name.text);
-  declare_value(language, declaration, value);
-}
-
-void declare_broken(struct language *language, struct declaration *declaration)
-{
-  declare_value(language, declaration, &(struct value){.kind = VALUE_UNKNOWN});
-}
-
-void declare_gone(struct language *language, const struct name *name)
+void symbol_gone(struct language *language, const struct name *name)
 {
   struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
   if (symbol) forget(language->symbols, symbol);
-}
-
-void declare_number(struct language *language, const char *name, size_t length, double number)
-{
-  const struct name word = {.text = name, .length = length};
-  set(language, declare_global(language, &word), &(struct value){.x = {number, number, number}});
 }

@@ -2,47 +2,44 @@
 #ifndef PSCN_LANGUAGE_SYMBOLS_H
 #define PSCN_LANGUAGE_SYMBOLS_H
 
-#include "language/state.h"
-#include "language/table.h"
+#include "language/errors.h"
+#include "base/table.h"
 #include "language/words.h"
 
 enum value_kind {
-  VALUE_NUMBER, /* in all of x, so that it is a vector where one is wanted */
+  VALUE_NUMBER,
   VALUE_VECTOR,
-  VALUE_COLOUR, /* red, green, blue */
+  VALUE_COLOUR,
   VALUE_STRING,
   VALUE_ARRAY,
   VALUE_TEXTURE, /* a texture, a pigment or a finish */
+  VALUE_TRANSFORM,
   VALUE_OBJECT,
   VALUE_MACRO,
-  VALUE_FOREIGN, /* declared with what pscn lacks */
-  VALUE_NONE,    /* a name not declared; an element of an array not set */
-  VALUE_UNKNOWN  /* an error has been reported; any use of it is accepted */
+  VALUE_NONE,   /* a name not declared; an element of an array not set */
+  VALUE_UNKNOWN /* an error has been reported; any use of it is accepted */
 };
 
-/* The reasons: a number after `color`, which stands for all five parts of a colour; a filter or transmit part. */
-enum { TRANSPARENT_NUMBER = 1, TRANSPARENT_SAID = 2 };
+/* POV-Ray's colours have five: red, green, blue, filter, transmit. Vectors have up to as many. */
+enum { MAX_PARTS = 5 };
 
 struct value {
   enum value_kind kind;
-  unsigned transparent; /* why POV-Ray makes this colour transparent, or 0 */
-  bool component;       /* a component, or computed from one; parentheses or a name make it a number */
-  bool open;            /* has three parts, but POV-Ray takes it for five behind a colour: an axis, a named vector */
-  bool wide;            /* computed from an open one: behind a colour, it makes that transparent in POV-Ray */
-  bool bare;            /* a colour followed by a part, without rgb or color before it */
-  bool told;            /* what it lacks has been reported */
+  bool component; /* a component, or computed from one; parentheses or a name make it a number */
+  int parts;      /* of a vector or a colour */
   union {
-    double x[3];
+    double x[MAX_PARTS]; /* of a number only the first counts */
     struct {
       const char *text;
       size_t length;
     };
     struct array *array;
     const struct texture *texture;
+    const struct transform *transform;
     const struct node *object;
     const struct macro *macro;
   };
-  struct span lacks;   /* the first word of its declaration that pscn lacks, or none */
+  struct span lacks;   /* the first thing in its declaration that is not supported, or none */
   struct value *named; /* the declared one that this is, unchanged; or NULL */
   int depth;           /* of that one's symbol, which is gone if this is deeper than what is being read */
   struct span place;
@@ -74,8 +71,6 @@ struct symbols {
   struct symbol *globals;    /* the newest first */
   struct symbol *locals;     /* those of what is being read, the newest first */
   struct symbol *unused;     /* to be reused */
-  struct table missing;      /* names that were unknown, */
-  struct missed *missed;     /* the newest first */
   struct declaration *ended; /* to be reused */
   size_t considered;         /* names considered for guesses */
   size_t macros;             /* macros that are or were declared */
@@ -95,31 +90,15 @@ bool symbol_known(const struct language *language, const struct name *name);
 /* Considers the declared names, the last one first, up to a limit. */
 void guess_symbols(struct guess *guess, struct language *language);
 
-/* Reports that a value is not what is wanted, or that its name is not declared; once, if that name is BROKEN then. */
+/* Reports that a value is not what is wanted, or that its name is not declared; any use of that name is accepted then. */
 void symbol_mistaken(struct language *language, const struct value *value, const char *wanted);
-/* At the end, reports the names that were unknown more than once. */
-void symbols_tell_missed(struct language *language);
+/* Handles the use of a name whose declaration has something that is not supported. */
+void symbol_lacks(struct language *language, const struct value *value);
 
-/* Begins a declaration of a name or of an array's element, whose `target` begins with the name's place, followed by the
- * indices. Declarations may be nested. `local`: the place of its #local, or NULL. */
-struct declaration *declare_begin(struct language *language, struct value *target, const struct span *local);
-/* Begins another one of a name that has been declared just now. */
-void declare_again(struct language *language, struct value *value);
-/* Ends it: the name has that value. */
-void declare_value(struct language *language, struct declaration *declaration, const struct value *value);
-/* The same where the ; is missing, without which POV-Ray reads strings, arrays, textures and objects only. */
-void declare_open(struct language *language, struct declaration *declaration, const struct value *value);
-void declare_broken(struct language *language, struct declaration *declaration); /* after an error */
-/* A #local of the file or macro being read, or a #declare, of a value that is no text's. */
-struct value *declare_local(struct language *language, const struct name *name);
-struct value *declare_global(struct language *language, const struct name *name);
+/* The symbol to be written by a #local of the file or macro being read, or by a #declare. */
+struct symbol *symbol_begin(struct language *language, const struct name *name, bool local);
 /* Makes a name of the macro that is being entered stand for an argument. */
-void declare_parameter(struct language *language, const struct name *name, const struct value *argument);
-void declare_gone(struct language *language, const struct name *name); /* #undef */
-/* At the end of a file, reports the open declarations of names that are local to it. */
-void declare_left_open(struct language *language, struct span end);
-
-/* Declares a number, such as the one by which a scene tells pscn from POV-Ray. */
-void declare_number(struct language *language, const char *name, size_t length, double number);
+void symbol_parameter(struct language *language, const struct name *name, const struct value *argument);
+void symbol_gone(struct language *language, const struct name *name); /* #undef */
 
 #endif

@@ -9,8 +9,6 @@
 
 enum { LONGEST_SHOWN = 40 };
 
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
-
 static bool contains(const char *const names[], int count, const char *wanted)
 {
   for (int k = 0; k < count; k++)
@@ -18,51 +16,27 @@ static bool contains(const char *const names[], int count, const char *wanted)
   return false;
 }
 
-/* Lists briefly what could have stood there: a value, instead of all that may begin one; no operators, commas and
- * directives, which may stand nearly anywhere. Empty if what remains is still too much to help. */
+/* Whether an error names it among what could have stood there: it is no word or sign that may stand nearly anywhere, nor
+ * a value's if "a value" stands for all of them. */
+static bool is_listed(const char *name, bool value, bool compared)
+{
+  if (name[0] == '\'')
+    return strchr("(){}];:=", name[1]) && !(value && name[1] == '(') && !(compared && name[1] == '=');
+  if (name[0] == 'a' && name[1] == ' ') return !value;
+  return name[0] >= 'a' && words_begin_item(words_token(name, strlen(name)));
+}
+
+/* Lists what could have stood there. Empty if that is too much to help. */
 static void list_expected(const char *const expected[], int count, char *out, size_t size)
 {
   enum { MOST_LISTED = 10 };
-  static const char *const in_values[] = {
-    "a number", "a vector", "x",     "y",   "z",     "a constant", "a string", "'!'",  "'('",   "'<'",    "'+'",
-    "'-'",      "defined",  "array", "rgb", "color", "rgbf",       "rgbft",    "srgb", "srgbf", "srgbft", "a function"};
-  static const char *const parts[] = {"red", "green", "blue", "filter"}; /* which may follow any colour */
-  static const char *const anywhere[] = {"'+'",
-                                         "'-'",
-                                         "'*'",
-                                         "'/'",
-                                         "'.'",
-                                         "','",
-                                         "'['",
-                                         "'<'",
-                                         "'>'",
-                                         "'='",
-                                         "'?'",
-                                         "'&'",
-                                         "'|'",
-                                         "a comparison",
-                                         "#declare",
-                                         "#local",
-                                         "#version",
-                                         "#default",
-                                         "the end of the text",
-                                         "deprecated",
-                                         "a word of POV-Ray's",
-                                         "a shape",
-                                         "a word without effect"};
   const char *list[MOST_LISTED];
   int listed = 0;
   const bool value = contains(expected, count, "a constant"), objects = contains(expected, count, "object");
-  const bool part = contains(expected, count, "filter"), compared = contains(expected, count, "a comparison");
+  const bool compared = contains(expected, count, "'&'");
   if (value) list[listed++] = "a value";
   for (int k = 0; k < count; k++) {
-    if (value && (contains(in_values, COUNT(in_values), expected[k]) || strcmp(expected[k], "a name") == 0)) continue;
-    if (strcmp(expected[k], "'='") == 0 && !compared) {
-      list[listed++] = expected[k];
-      continue;
-    }
-    if (count > 1 && contains(anywhere, COUNT(anywhere), expected[k])) continue;
-    if (part && contains(parts, COUNT(parts), expected[k])) continue;
+    if (count > 1 && !is_listed(expected[k], value, compared)) continue;
     if (objects && strcmp(expected[k], "solver") == 0) continue; /* parsed there, but never right */
     if (listed == MOST_LISTED) return;
     list[listed++] = expected[k];
@@ -78,7 +52,7 @@ static struct guess guess_meant(struct language *language, const char *word, siz
 {
   struct guess guess = guess_begin(word, length);
   for (int k = 0; k < count; k++) {
-    if (expected[k][0] == '\'' || strncmp(expected[k], "a ", 2) == 0) continue;
+    if (expected[k][0] < 'a' || expected[k][1] == ' ') continue;
     guess_consider(&guess, expected[k], strlen(expected[k]));
   }
   if (guess.best) return guess;
@@ -98,8 +72,8 @@ static void tell_declared(struct language *language, const struct name *name, co
   value.place = name->place;
   value.named = symbol_find(language, name->text, name->length);
   if (objects && value.kind == VALUE_OBJECT)
-    language_error(language, name->place, "a declared object stands in object { %.*s }", shown(name), name->text);
-  else if (objects || value.kind == VALUE_FOREIGN) symbol_mistaken(language, &value, "an object");
+    language_error(language, name->place, "a declared object must be in object { %.*s }", shown(name), name->text);
+  else if (objects || value.kind == VALUE_UNKNOWN) symbol_mistaken(language, &value, "an object");
   else language_error(language, name->place, "unexpected name '%.*s'%s", shown(name), name->text, list);
 }
 
@@ -110,7 +84,7 @@ static const char *misplaced(const struct tokens *tokens, const char *text)
   const int token = tokens->last.token;
   if (tokens->last.depth == 0 || text[0] == '#' || !words_begin_statement(token)) return NULL;
   const bool object = token == PSCN_TOKEN_BICUBIC_PATCH || token == PSCN_TOKEN_UNION || token == PSCN_TOKEN_OBJECT;
-  return object ? "; is a } missing before it?" : ", which stands in no other block; is a } missing before it?";
+  return object ? "; is a } missing before it?" : ", which must be outside all blocks; is a } missing before it?";
 }
 
 static bool same_place(struct span a, struct span b) { return span_begin(a) > 0 && span_begin(a) == span_begin(b); }
@@ -163,46 +137,16 @@ static void tell_unexpected(struct language *language, const struct name *text, 
                                                 list);
 }
 
-/* Writes how the character at `text` is known, if it cannot be seen or typed everywhere; else nothing. */
-static void name_character(const char *text, size_t length, char *out, size_t size)
-{
-  static const struct {
-    unsigned code;
-    const char *name;
-  } unseen[] = {{0xA0, ", a no-break space"},          {0xAD, ", a soft hyphen"},
-                {0x200B, ", a zero-width space"},      {0x2028, ", a line separator"},
-                {0x202F, ", a narrow no-break space"}, {0xFEFF, ", a byte order mark"},
-                {0xFFFC, ", in place of an object"},   {0xFFFD, ", in place of a lost character"}};
-  const size_t bytes = source_character(text, length);
-  const unsigned first = (unsigned char)text[0];
-  unsigned code = bytes < 2 ? first : first & (0x7Fu >> bytes);
-  const char *name = "";
-  for (size_t k = 1; k < bytes; k++) code = code << 6 | ((unsigned char)text[k] & 0x3F);
-  for (int k = 0; k < COUNT(unseen); k++)
-    if (unseen[k].code == code) name = unseen[k].name;
-  if (bytes == 0) snprintf(out, size, "the byte %02X, which is not UTF-8", first);
-  else if (code > ' ' && code < 0x7F) out[0] = '\0';
-  else snprintf(out, size, "the character U+%04X%s", code, name);
-}
-
 void character_error(struct language *language)
 {
   const struct name name = sources_name(language, sources_here(language));
-  char character[80];
-  name_character(name.text, name.length, character, sizeof character);
-  if (character[0] == '\0') language_error(language, name.place, "this means nothing here");
-  else language_error(language, name.place, "%s: this means nothing here", character);
-}
-
-void letters_error(struct language *language, struct span place)
-{
-  const struct name name = sources_name(language, place);
-  char character[80];
-  size_t k = 0;
-  while (!((unsigned char)name.text[k] & 0x80)) k++;
-  name_character(name.text + k, name.length - k, character, sizeof character);
-  language_error(language, place, "%s: names have the letters a to z, A to Z, digits and _", character);
-  language->unknown = language->letters = place;
+  const size_t bytes = source_character(name.text, name.length);
+  const unsigned first = (unsigned char)name.text[0];
+  unsigned code = bytes < 2 ? first : first & (0x7Fu >> bytes);
+  for (size_t k = 1; k < bytes; k++) code = code << 6 | ((unsigned char)name.text[k] & 0x3F);
+  if (bytes == 0) language_error(language, name.place, "unexpected byte %02X, which is not UTF-8", first);
+  else if (code > ' ' && code < 0x7F) language_error(language, name.place, "unexpected character");
+  else language_error(language, name.place, "unexpected character U+%04X", code);
 }
 
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count)
@@ -219,22 +163,18 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
     return;
   }
   if (same_place(tokens->previous, language->method_name) && solver_item_find(&name)) {
-    language_error(language, place, "the items of a solver stand in braces: { %.*s ... }", shown(&name), name.text);
+    language_error(language, place, "the items of a solver must be in braces: { %.*s ... }", shown(&name), name.text);
     return;
   }
   language->idle = 0;
-  if (words_are_foreign(tokens->last.token)) {
-    language_refuses(language, place);
-    return;
-  }
-  if (begins_undeclarable(language)) {
-    language_refuses(language, place);
-    tokens->recovered = place; /* it does not begin a statement of its own */
+  const bool undeclarable = begins_undeclarable(language);
+  if (undeclarable) tokens->recovered = place; /* it does not begin a statement of its own */
+  if (undeclarable || words_are_foreign(tokens->last.token)) {
+    language_lacks(language, place, place);
     return;
   }
   if (tell_previous(language)) return;
-  if (language->lenient && tokens->depth > 0 &&
-      span_begin(language->left_out_last) > span_begin(tokens->braces[tokens->depth - 1]))
+  if (tokens->depth > 0 && span_begin(language->left_out_last) > span_begin(tokens->braces[tokens->depth - 1]))
     return; /* of what was left out in this block, such as the parts of a pattern */
   char list[300] = "";
   const char *misplacement = misplaced(tokens, name.text);

@@ -63,7 +63,7 @@ const char *texture_kind(const struct texture *texture) { return block_name(text
 static void apply_named(struct language *language, const struct value *value, bool first)
 {
   struct texture *texture = language->texture;
-  if (!first) language_error(language, value->place, "a declared name stands first in %s", texture_kind(texture));
+  if (!first) language_error(language, value->place, "a declared name must come first in %s", texture_kind(texture));
   texture_apply(texture, value->texture);
 }
 
@@ -87,18 +87,18 @@ void pigment_value(struct language *language, const struct value *value)
     apply_named(language, value, stage == STAGE_SETTINGS);
     return;
   }
-  if (value->kind >= VALUE_FOREIGN) {
+  if (value->kind >= VALUE_NONE) {
     symbol_mistaken(language, value, "a colour");
     texture->doubtful = true;
   }
   if (texture->doubtful) return;
   if (value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR) {
-    language_error(language, value->place, "a pigment wants a colour: write rgb before this");
+    language_error(language, value->place, "a pigment needs a colour: write rgb before this");
     return;
   }
   if (texture->coloured) language_error(language, value->place, "a pigment has one colour");
   else if (stage == STAGE_MODIFIERS)
-    language_error(language, value->place, "the colour of a pigment stands before its transforms");
+    language_error(language, value->place, "the colour of a pigment must come before its transforms");
   texture->coloured = true;
   value_to_opaque(language, value, texture->is.pigment);
   texture->set |= TEXTURE_PIGMENT;

@@ -67,13 +67,9 @@ static int stand_in(struct language *language, int token)
 {
   struct tokens *tokens = language->tokens;
   if (token >= TOKEN_FOREIGN_DIRECTIVE) return tokens->told = tokens->last.place, PSCN_TOKEN_REFUSED;
-  if (token == TOKEN_OTHER_LETTERS) {
-    if (!tokens->skipping) letters_error(language, tokens->last.place);
-    return PSCN_TOKEN_WORD;
-  }
-  /* POV-Ray takes the e for part of the number. */
-  const char *wrong = token == TOKEN_SECOND_POINT ? "a number has one point" : "the exponent of a number has digits";
-  if (!tokens->skipping) language_error(language, tokens->last.place, "%s", wrong);
+  if (!tokens->skipping) /* POV-Ray takes the e for part of the number */
+    language_error(language, tokens->last.place,
+                   "this is not a number: it has a second point, or no digits after the e");
   return PSCN_TOKEN_NUMBER;
 }
 
@@ -84,7 +80,6 @@ static int begin(struct tokens *tokens)
   if (token == 0) return 0;
   tokens->start[0] = tokens->start[1];
   tokens->start[1] = 0;
-  if (tokens->nested == 0) tokens->last.place = span_of(1, 1);
   return token == PSCN_TOKEN_SOLVER ? solver_token(tokens, token) : token;
 }
 
@@ -216,7 +211,7 @@ bool tokens_parse(struct language *language, int start, struct value **out)
   const size_t begin = language->sources->frame->scan.end;
   const bool opens = start != PSCN_TOKEN_START_STRING && start != PSCN_TOKEN_START_INDICES;
   if (opens && directives_scan(language) != '(') {
-    if (!language_ended(language)) language_error(language, sources_here(language), "a ( is wanted here");
+    if (!language_ended(language)) language_error(language, sources_here(language), "expected (");
     pscn_scan_seek(&language->sources->frame->scan, begin);
     return false;
   }
@@ -333,7 +328,7 @@ struct span tokens_pass_block(struct language *language)
   const struct delivered *last = &tokens->last;
   const int block = last->depth;
   if (tokens_next(language) != '{') {
-    language_error(language, last->place, "a { follows the name of a shape");
+    language_error(language, last->place, "expected { after the name of a shape");
     tokens->last.again = true;
     return last->place;
   }

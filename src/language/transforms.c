@@ -64,23 +64,6 @@ enum { MATRIX_NUMBERS = 12 };
 /* POV-Ray's absolute limit: a matrix whose numbers for one axis are all smaller has none for it. */
 #define EMPTY 1e-10
 
-struct matrix *matrix_begin(struct language *language, const struct value *first)
-{
-  if (!language->matrix) language->matrix = language_alloc(language, sizeof *language->matrix);
-  struct matrix *matrix = language->matrix;
-  matrix->count = 0;
-  matrix_add(language, matrix, first);
-  return matrix;
-}
-
-void matrix_add(struct language *language, struct matrix *matrix, const struct value *value)
-{
-  double x = 1;
-  value_to_number(language, value, &x);
-  if (matrix->count < MATRIX_NUMBERS) matrix->number[matrix->count] = x;
-  matrix->count++;
-}
-
 static struct double_double minor(const double m[12], int i, int j)
 {
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -116,19 +99,70 @@ static bool is_singular(const double matrix[12])
   return fabs(determinant.hi) <= 0x1p-100 * size;
 }
 
-const struct transform *transform_matrix(struct language *language, struct span place, const struct matrix *matrix)
+const struct transform *transform_matrix(struct language *language, struct span place, struct value *parts)
 {
   struct transform *t = begin_identity(language, place);
-  const int count = matrix ? matrix->count : 3;
+  double number[MATRIX_NUMBERS], unused;
+  int count = parts ? 0 : 3;
+  bool known = true;
+  struct value *list = value_reversed(parts);
+  for (const struct value *part = list; part; part = part->next, count++)
+    known &= value_to_number(language, part, count < MATRIX_NUMBERS ? &number[count] : &unused);
+  value_last_of_list(language, list);
   if (count != MATRIX_NUMBERS) {
     language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, count);
-  } else if (is_singular(matrix->number)) {
+  } else if (known && is_singular(number)) {
     language_error(language, place, "this matrix cannot be inverted: it makes everything flat");
-  } else if (has_empty_column(matrix->number)) {
-    language_error(language, place, "POV-Ray leaves an axis as it is of which all numbers are below 1e-10; use scale");
-  } else {
+  } else if (known && has_empty_column(number)) {
+    language_error(language, place, "POV-Ray ignores an axis whose numbers are all below 1e-10; use scale");
+  } else if (known) {
     t->identity = t->moves = false;
-    for (int i = 0; i < MATRIX_NUMBERS; i++) t->A[i / 3][i % 3] = dd(matrix->number[i]);
+    for (int i = 0; i < MATRIX_NUMBERS; i++) t->A[i / 3][i % 3] = dd(number[i]);
   }
   return t;
+}
+
+/* ---- declared transforms ---- */
+
+struct transforms {
+  struct transforms *outer;
+  struct transform all;
+};
+
+void transforms_begin(struct language *language)
+{
+  struct transforms *open = language_alloc(language, sizeof *open);
+  *open = (struct transforms){language->transforms, transform_identity()};
+  language->transforms = open;
+}
+
+void transforms_add(struct language *language, const struct transform *transform)
+{
+  struct transform *all = &language->transforms->all;
+  *all = transform_then(all, transform);
+}
+
+const struct transform *transforms_end(struct language *language, struct span place)
+{
+  struct transforms *open = language->transforms;
+  language->transforms = open->outer;
+  language->transform_place = place;
+  return &open->all;
+}
+
+const struct transform *transform_named(struct language *language, const struct value *value)
+{
+  if (value->kind == VALUE_TRANSFORM) {
+    language->transform_place = value->place;
+    return value->transform;
+  }
+  symbol_mistaken(language, value, "a transform");
+  return begin_identity(language, value->place);
+}
+
+struct value *value_of_transform(struct language *language, const struct transform *transform)
+{
+  struct value *value = value_of(language, VALUE_TRANSFORM, language->transform_place);
+  value->transform = transform;
+  return value;
 }

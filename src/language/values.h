@@ -5,6 +5,9 @@
 
 #include "language/symbols.h"
 
+/* POV-Ray's, absolute: numbers nearer than that are equal. */
+#define VALUE_EQUAL 1e-10
+
 /* Values are made in the order in which the grammar meets them. A result takes the memory of its first operand; the
  * other operands must not be used afterwards. */
 struct value *value_of(struct language *language, enum value_kind kind, struct span place);
@@ -14,14 +17,18 @@ struct value *value_axis(struct language *language, int axis, struct span place)
 struct value *value_named(struct language *language, struct span name);
 /* An element of that array; `indices`: a list, the last one first, which is used up. */
 struct value *value_element(struct language *language, struct value *array, struct value *indices, struct span place);
-/* Refuses a vector of two parts. */
-struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place);
-struct value *value_of_parts(struct language *language, struct value *x, struct value *y, struct value *z,
-                             struct span place);
-/* The same value at another place, no longer marked as a component, open or wide. */
+/* A vector; `parts`: a list, the last one first, which is used up. */
+struct value *value_of_parts(struct language *language, struct value *parts, struct span place);
+/* The value made one of which any use is accepted. */
+struct value *value_unknown(struct value *value, struct span place);
+/* Whether the value can be computed with. If not, this has been reported. */
+bool value_usable(struct language *language, const struct value *a, const char *wanted);
+/* The part that x, u, red and so on name, from 0 on. */
+int value_part_named(const struct language *language, struct span name);
+/* The same value at another place, no longer marked as a component. */
 struct value *value_placed(struct value *value, struct span place);
 struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
-/* Comparisons, of numbers or part by part, and & and |, where what is nearer to 0 than 1e-10 is false. `op`: a sign;
+/* Comparisons, of numbers or part by part, and & and |, where what is nearer to 0 than VALUE_EQUAL is false. `op`: a sign;
  * or of two signs that at the place: [, ] or ! for <=, >= or !=. */
 int comparison_at(const struct language *language, struct span place);
 struct value *value_compared(struct language *language, int op, struct value *a, struct value *b);
@@ -35,21 +42,15 @@ struct value *value_positive(struct language *language, struct value *a, struct 
 /* A value in parentheses, which its neighbours do not affect. */
 struct value *value_alone(struct language *language, struct value *a, struct span place);
 /* `name`: that of the component. */
-struct value *value_component(struct language *language, struct value *a, int index, struct span name);
-struct value *value_rgb(struct language *language, struct value *a, struct span place);
+struct value *value_component(struct language *language, struct value *a, struct span name);
+/* A colour: behind `color` a number stands for all its parts; behind rgb and similar words for as many as these name. */
 struct value *value_color(struct language *language, struct value *a, struct span place);
-/* After rgbf or rgbt (4 parts) or rgbft (5): a number or a colour; or each part, with transmit NULL if there are 4. */
-struct value *value_rgbft(struct language *language, struct value *a, int parts, struct span place);
-/* A colour given as sRGB codes from 0 to 1, after the word at `word`; it becomes one of the scene's own space. */
-struct value *value_srgb(struct language *language, struct span word, struct value *colour);
-struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
-                         struct value *filter, struct value *transmit, struct span place);
-/* A colour without rgb or color, with one part given by name as in value_part. */
-struct value *value_bare_part(struct language *language, struct value *colour, int part, struct value *value,
-                              struct span place);
-/* A colour, black if NULL, with one part given by name: 0 red, 1 green, 2 blue, 3 filter or transmit. */
-struct value *value_part(struct language *language, struct value *colour, int part, struct value *value,
-                         struct span place);
+struct value *value_rgb(struct language *language, struct span word, struct value *a);
+/* A colour, black if NULL, with the part of that name. */
+struct value *value_part(struct language *language, struct value *colour, struct span part, struct value *value);
+/* One part of a vector or a colour, from 0 on; a number has the same in all. */
+double value_x(const struct value *a, int k);
+void value_set_number(struct value *to, double x);
 /* Adds a value before a list; the list in the order of the text; and the end of its use. */
 struct value *value_before(struct value *list, struct value *value);
 struct value *value_reversed(struct value *list);
@@ -63,7 +64,7 @@ struct value *value_last(struct language *language, struct value *value);
 void value_to_vector(struct language *language, const struct value *a, double out[3]);
 void value_to_colour(struct language *language, const struct value *a, double out[3]); /* its parts are floats */
 bool value_to_number(struct language *language, const struct value *a, double *out);
-/* As value_to_colour, where POV-Ray heeds transparency: a transparent colour, or a bare number, is an error. */
+/* As value_to_colour, where POV-Ray heeds transparency: a transparent colour, or a bare number, is not supported. */
 void value_to_opaque(struct language *language, const struct value *a, double out[3]);
 /* Whether x is within a float's range, as POV-Ray's colours and finishes are. Products of some are then doubles. */
 bool value_is_float(double x);

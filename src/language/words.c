@@ -12,7 +12,7 @@
 struct keyword {
   const char *name;
   int token;
-  const char *instead; /* of one that pscn lacks: what it has, or "" */
+  const char *instead; /* of one that is not supported: what can be used, or "" */
 };
 
 /* Words that begin with one letter. */
@@ -112,7 +112,7 @@ const char *words_instead(const char *word, size_t length)
 
 const char *words_directive(const char *text, size_t *length)
 {
-  if (*text != '#') return text; /* comments are between the two */
+  if (*text != '#') return text;
   do text++, --*length;
   while (strchr(" \t\r\n\f\v", *text));
   return text;
@@ -152,11 +152,11 @@ bool words_are_foreign(int token)
 bool words_begin_item(int token)
 {
   static const int in_values[] = {
-    PSCN_TOKEN_WORD,     PSCN_TOKEN_NUMBER,     PSCN_TOKEN_POINT,   PSCN_TOKEN_STRING,     PSCN_TOKEN_COLOR,
-    PSCN_TOKEN_RGB,      PSCN_TOKEN_RED,        PSCN_TOKEN_GREEN,   PSCN_TOKEN_BLUE,       PSCN_TOKEN_X,
-    PSCN_TOKEN_Y,        PSCN_TOKEN_Z,          PSCN_TOKEN_RGBF,    PSCN_TOKEN_RGBFT,      PSCN_TOKEN_FILTER,
-    PSCN_TOKEN_CONSTANT, PSCN_TOKEN_FUNCTION,   PSCN_TOKEN_DEFINED, PSCN_TOKEN_DEPRECATED, PSCN_TOKEN_ONCE,
-    PSCN_TOKEN_ARRAY,    PSCN_TOKEN_COMPARISON, PSCN_TOKEN_SRGB,    PSCN_TOKEN_SRGBF,      PSCN_TOKEN_SRGBFT};
+    PSCN_TOKEN_WORD,      PSCN_TOKEN_NUMBER,  PSCN_TOKEN_POINT,  PSCN_TOKEN_STRING,     PSCN_TOKEN_COLOR,
+    PSCN_TOKEN_RGB,       PSCN_TOKEN_RED,     PSCN_TOKEN_GREEN,  PSCN_TOKEN_BLUE,       PSCN_TOKEN_X,
+    PSCN_TOKEN_Y,         PSCN_TOKEN_Z,       PSCN_TOKEN_FILTER, PSCN_TOKEN_COMPONENT,  PSCN_TOKEN_CONSTANT,
+    PSCN_TOKEN_FUNCTION,  PSCN_TOKEN_DEFINED, PSCN_TOKEN_ARRAY,  PSCN_TOKEN_DEPRECATED, PSCN_TOKEN_ONCE,
+    PSCN_TOKEN_COMPARISON};
   return token > 255 && !words_are_foreign(token) && !is_one_of(token, in_values, COUNT(in_values));
 }
 

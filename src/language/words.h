@@ -5,11 +5,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The token of a word; and of a directive, given with its #, or without it where comments stand between the two. */
+/* The token of a word; and of a directive, given with its #. */
 int words_token(const char *word, size_t length);
 int words_directive_token(const char *text, size_t length);
 
-/* Of a word of POV-Ray's that pscn lacks: what pscn has instead, or "". */
+/* Of a word of POV-Ray's that is not supported: what can be used instead, or "". */
 const char *words_instead(const char *word, size_t length);
 
 /* The name of a directive, behind its # and blanks if the text has them. *length, that of the text, becomes that of the

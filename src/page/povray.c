@@ -11,7 +11,7 @@
 #include "base/number.h"
 #include "page/process.h"
 #include "image/image_file.h"
-#include "language/plain_copy.h"
+#include "page/plain_copy.h"
 #include "scene/dump.h"
 
 /* The bytes that a run may write: for each pixel the picture, the state in which POV-Ray keeps it meanwhile, and an answer

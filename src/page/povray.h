@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "base/listener.h"
 #include "base/text_buffer.h"
-#include "language/plain_copy.h"
+#include "page/plain_copy.h"
 #include "page/scratch.h"
 #include "image/image.h"
 #include "intersect/intersect.h"
@@ -56,7 +56,7 @@ enum status povray_render(struct povray *povray, const struct scene *scene,
 
 /* The same from the text of a scene file itself, without its solver statements. `folders` are those of
  * language_settings. If the text could read or write other files, nothing is rendered, and out_word is the word that
- * could (language/plain_copy.h); otherwise "". */
+ * could (page/plain_copy.h); otherwise "". */
 enum { POVRAY_WORD_SIZE = PLAIN_COPY_WORD_SIZE };
 enum status povray_render_file(struct povray *povray, const char *path, const char *const *folders,
                                char out_word[POVRAY_WORD_SIZE], struct povray_picture *out) STATUS_MUST_CHECK;

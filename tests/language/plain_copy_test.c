@@ -1,5 +1,5 @@
 /* The text for POV-Ray: files are included from where the language finds them, and copied once. */
-#include "language/plain_copy.h"
+#include "page/plain_copy.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,6 +1,6 @@
 /* Proves that the table of names finds what is put in, the newest first, whatever its bytes are; and that nobody can
  * predict where an entry lies, or a text could be made that takes quadratic time to read. */
-#include "language/table.h"
+#include "base/table.h"
 
 #include <stdio.h>
 #include <string.h>

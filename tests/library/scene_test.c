@@ -115,7 +115,7 @@ TEST(test_arguments)
     {{.size = 3}, "not of this version"},
     {{.size = sizeof(size_t) + 3, .solver = "aberth"}, "not of this version"},
     {{.size = sizeof(struct pscn_options), .solver = "abert"}, "did you mean 'aberth'?"},
-    {{.size = sizeof(struct pscn_options), .tolerance = 7}, "the tolerance is a number from"},
+    {{.size = sizeof(struct pscn_options), .tolerance = 7}, "the tolerance must be a number from"},
     {{.size = sizeof(struct pscn_options), .tolerance = NAN}, "the tolerance is no number"},
     {{.size = sizeof(struct pscn_options), .image_width = -1}, "negative"},
     {{.size = sizeof(struct pscn_options), .image_height = -1}, "negative"},

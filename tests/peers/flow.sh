@@ -18,5 +18,5 @@ for file in "$PSCN_SOURCE_DIR"/tests/peers/flow/*.pov "$PSCN_SOURCE_DIR/scenes/s
   rm -f ours.png theirs.png
   count=$((count + 1))
 done
-[ $count -ge 16 ]
+[ $count -ge 17 ]
 exit $failed

@@ -46,7 +46,7 @@ documented 'refused, because they put things into the scene' "${refused[@]}"
 used() { # FILE LINE NAME LIBRARY WORD
   scene "#include \"$1.inc\"" "$2" >used.pscn
   "$PSCN" dump used.pscn >out 2>said && fail "$2: exit 0"
-  grep -Eq "^used.pscn:4:[0-9]+: error: '$3' is declared with '$5' \([^ ]*/$4.inc:[0-9]+\), which is not supported" said ||
+  grep -Eq "^used.pscn:4:[0-9]+: error: POV-Ray's $5 \([^ ]*/$4.inc:[0-9]+\) is not supported" said ||
     { fail "$2: not told"; cat said; }
 }
 used stones '#default { texture { T_Stone10 } }' T_Stone10 stones1 granite

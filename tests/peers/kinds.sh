@@ -21,7 +21,7 @@ outcome() {
     return
   fi
   printf 'refused: '
-  sed -n "s/.*error: \(#*[a-z_0-9]*\) is not supported.*/\`\1\`/p; s/.*error: a number is wanted here.*/other/p
+  sed -n "s/.*error: POV-Ray's \(#*[a-z_0-9]*\)[^;]* is not supported.*/\`\1\`/p; s/.*error: expected a number.*/other/p
     s/.*error: '\([A-Za-z_0-9]*\)' is not declared.*/\`\1\`/p;
     s/.*\(transpar[a-z]*\).*/transparency/p" said | awk '!seen[$0]++' |
     head -4 | paste -sd, | sed 's/,/, /g'

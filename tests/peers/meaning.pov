@@ -106,6 +106,16 @@ D("dimensions", dimensions(Arr)) D("size", dimension_size(Arr, 1)) D("size", dim
 #declare Names = array[2] { "one", "two" } #debug concat(Names[1], "\n")
 #declare AA = array[2]; #declare AA[0] = array[2] { 5, 6 } #declare AA[1] = Q; #declare X = AA[0]; D("within", X[1])
 
+// vectors of two to five parts, and colours, which have five
+#macro D5(N, V) #debug concat(N, " ", vstr(5, V, " ", 0, 6), "\n") #end
+#declare U2 = <1, 2>; #declare U4 = <1, 2, 3, 4>; #declare U5 = <1, 2, 3, 4, 5>; #declare Half = rgb 0.5;
+D5("two and three", U2 + <1, 2, 3>) D5("four and a number", U4*2 - 1) D5("five", -U5/2) D5("a product", U5*x)
+D("part u", U2.u) D("part v", U2.v) D("part t", U4.t) D("filter", U4.filter) D("transmit", U5.transmit)
+D("length", vlength(U2)) D5("equal", (U2 = <1, 3>)) D5("turned", vrotate(U2, 90*z))
+D5("colour and a number", Half + 0.25) D5("and a vector", Half*x + <0.1, 0.2, 0.3>)
+D5("color", color 0.5) D5("rgbf", rgbf 0.5) D5("rgbt", rgbt U4) D5("rgbft", rgbft U5*2) D5("rgbf of three", rgbf <1, 1, 1>)
+D5("parts", color red 1 green 0.5) D5("a changed part", color Half red 1 transmit 0.75)
+
 // what the program gives
 D("clock", clock) D("clock_on", clock_on) D("frame", frame_number) D("first", initial_frame) D("last", final_frame)
 D("delta", clock_delta) D("width", image_width) D("height", image_height) D("version", version)

@@ -4,8 +4,8 @@
  * first. The hash has a random key, because otherwise a text could be made whose names all get one slot. So nothing may
  * depend on the order of entries in the table.
  */
-#ifndef PSCN_LANGUAGE_TABLE_H
-#define PSCN_LANGUAGE_TABLE_H
+#ifndef PSCN_BASE_TABLE_H
+#define PSCN_BASE_TABLE_H
 
 #include <stdbool.h>
 #include <stddef.h>

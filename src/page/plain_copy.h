@@ -4,8 +4,8 @@
  * Blanks replace what is removed, so that line numbers in POV-Ray's messages are those of the scene. Both branches of a
  * condition are copied; an #include of a file that does not exist is left alone.
  */
-#ifndef PSCN_LANGUAGE_PLAIN_COPY_H
-#define PSCN_LANGUAGE_PLAIN_COPY_H
+#ifndef PSCN_PAGE_PLAIN_COPY_H
+#define PSCN_PAGE_PLAIN_COPY_H
 
 #include "base/status.h"
 

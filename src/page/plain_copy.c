@@ -1,6 +1,6 @@
 /* Scene text without solver statements. The language's own scanner finds them, so comments and strings are left
  * alone. */
-#include "language/plain_copy.h"
+#include "page/plain_copy.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 #include "base/source.h"
-#include "language/include_path.h"
+#include "base/include_path.h"
 #include "language/sources.h"
 #include "language/words.h"
 

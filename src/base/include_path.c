@@ -1,5 +1,5 @@
 /* Finds included files. */
-#include "language/include_path.h"
+#include "base/include_path.h"
 
 #include <string.h>
 

@@ -4,8 +4,8 @@
  * those given. A name that ends in neither .inc nor .INC is first tried with each of these endings, in all folders, and
  * then by itself. A name that begins with / is a whole path.
  */
-#ifndef PSCN_LANGUAGE_INCLUDE_PATH_H
-#define PSCN_LANGUAGE_INCLUDE_PATH_H
+#ifndef PSCN_BASE_INCLUDE_PATH_H
+#define PSCN_BASE_INCLUDE_PATH_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* Open addressing with linear probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). There is one slot
  * for each hash; the entries of that hash hang from it. So a lookup meets neighbours in memory, and mostly no entry. */
-#include "language/table.h"
+#include "base/table.h"
 
 #include <string.h>
 #include <sys/random.h>
