@@ -14,7 +14,7 @@ BUILD_PACKAGES=(cmake ninja-build gcc g++ libc6-dev pkg-config flex bison libope
 
 install_packages() {
   if ! command -v dpkg-query >/dev/null; then
-    echo "This is no Debian system; please have ready what these Debian packages hold: $*" >&2
+    echo "This is not a Debian system; please install the equivalents of these Debian packages: $*" >&2
     return 0
   fi
   local name missing=()

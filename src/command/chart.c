@@ -25,7 +25,7 @@ struct request {
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_TEXT("output", 'o', folder.path, "folder of the results; default: SCENE's name and -chart", "DIR"),
-  SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
+  SCENE_SIZE_OPTION("width and height in pixels; default 800x600"),
   SCENE_READING_OPTIONS,
   COMMAND_OPTION("solver", 0, OPTION_SOLVER, "only this solver and the default; may be repeated", "TEXT"),
   COMMAND_INTEGER("rays", chart.rays, 1, MAX_RAYS, "number of rays",
@@ -34,7 +34,7 @@ static const struct command_option OPTIONS[] = {
                   "number of measurements of each; default 5, 3 with --quick", "N"),
   COMMAND_TRUE("quick", 0, chart.quick, "fewer tolerances, rays and peers: under a minute"),
   COMMAND_TRUE("no-peers", 0, no_peers, "leave out Embree and POV-Ray"),
-  COMMAND_TEXT("povray", 0, chart.program, "the program; default povray", "FILE"),
+  COMMAND_TEXT("povray", 0, chart.program, "POV-Ray's program; default povray", "FILE"),
   COMMAND_POSITIVE("timeout", chart.timeout, "number of seconds", "limit of each run of POV-Ray; default 300", "S"),
   COMMAND_TRUE("quiet", 'q', scene.quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,

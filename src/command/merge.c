@@ -23,7 +23,7 @@ enum { OPTION_BITS = 1 };
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_TEXT("output", 'o', output, "the picture, .png or .exr", "FILE"),
-  COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
+  COMMAND_OPTION("bits", 0, OPTION_BITS, "bits of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
   COMMAND_TRUE("quiet", 'q', quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
