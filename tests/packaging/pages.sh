@@ -4,10 +4,11 @@
 set -uo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-cmake --install "$1" --prefix "$folder" >/dev/null || exit 1
+installed=$(cmake --install "$1" --prefix "$folder") || exit 1
 share=$folder/share
 failed=0
 say() { echo "$*"; failed=1; }
+grep -qF "export PATH=$folder/bin:\$PATH LD_LIBRARY_PATH=$folder/lib" <<<"$installed" || say "the installation does not say what to export"
 have() { command -v "$1" >/dev/null || { echo "$1 is not installed: what it reads is not looked at" >&2; false; }; }
 
 # The words of `pscn help` before lists of commands, and of a command's options.
