@@ -14,6 +14,11 @@
 %param {struct language *language}
 
 %code requires {
+#include "language/state.h"
+}
+
+%code {
+#include "base/memory.h"
 #include "language/arrays.h"
 #include "language/camera.h"
 #include "language/declare.h"
@@ -22,10 +27,6 @@
 #include "language/settings.h"
 #include "language/solver_statement.h"
 #include "language/strings.h"
-}
-
-%code {
-#include "base/memory.h"
 #include "language/syntax_errors.h"
 #include "language/tokens.h"
 
@@ -348,7 +349,7 @@ patch_item:
   | FLATNESS value                            { patch_number(language, PATCH_FLATNESS, $1, $2); }
   | U_STEPS value                             { patch_number(language, PATCH_U_STEPS, $1, $2); }
   | V_STEPS value                             { patch_number(language, PATCH_V_STEPS, $1, $2); }
-  | UV_VECTORS                                 { language_lacks(language, $1, $1); tokens_pass_vectors(language, 4); }
+  | UV_VECTORS value comma value comma value comma value /* without uv_mapping they have no effect */
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
   | foreign

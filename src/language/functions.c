@@ -4,7 +4,6 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -169,16 +168,10 @@ static const struct function FUNCTIONS[] = {
   SPECIAL("vstr", 5, 5, VSTR),
 };
 
-static int compare_name(const void *name, const void *function)
-{
-  const struct name *n = name;
-  return words_compare(n->text, n->length, ((const struct function *)function)->name);
-}
-
 static const struct function *find(const struct language *language, struct span place)
 {
   const struct name name = sources_name(language, place);
-  return bsearch(&name, FUNCTIONS, sizeof FUNCTIONS / sizeof *FUNCTIONS, sizeof *FUNCTIONS, compare_name);
+  return words_find(name.text, name.length, FUNCTIONS, sizeof FUNCTIONS / sizeof *FUNCTIONS, sizeof *FUNCTIONS);
 }
 
 bool function_draws(const struct language *language, struct span place)

@@ -9,6 +9,7 @@
 #include "base/input.h"
 #include "base/memory.h"
 #include "language/camera.h"
+#include "language/declare.h"
 #include "language/expand.h"
 #include "language/includes.h"
 #include "language/settings.h"
@@ -17,7 +18,7 @@
 #include "language/tokens.h"
 
 /* The most tokens that loops and macros read: a second's work. */
-enum { MOST_WORK = 20 * 1000 * 1000 };
+enum { MOST_WORK = 15 * 1000 * 1000 };
 
 static const struct place NOWHERE = {NULL, 0, 0};
 

@@ -3,7 +3,7 @@
 
 #include <assert.h>
 
-#include "language/sources.h"
+#include "language/declare.h"
 
 static_assert(sizeof(struct scene_texture) == PARTS * sizeof(double), "a texture is PARTS doubles");
 
@@ -52,13 +52,6 @@ void texture_merge(struct language *language, const struct texture *texture)
 }
 
 void texture_moved(struct language *language) { language->texture->stage = STAGE_MODIFIERS; }
-
-static const char *block_name(enum texture_block block)
-{
-  return block == TEXTURE_ALL ? "a texture" : block == TEXTURE_FINISH ? "a finish" : "a pigment";
-}
-
-const char *texture_kind(const struct texture *texture) { return block_name(texture->block); }
 
 static void apply_named(struct language *language, const struct value *value, bool first)
 {

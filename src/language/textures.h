@@ -32,6 +32,12 @@ struct texture {
   };
 };
 
+static inline const char *texture_kind(const struct texture *texture)
+{
+  const enum texture_block block = texture->block;
+  return block == TEXTURE_ALL ? "a texture" : block == TEXTURE_FINISH ? "a finish" : "a pigment";
+}
+
 /* The texture until the first #default, which only affects what follows it. */
 extern const struct texture TEXTURE_OF_POVRAY;
 void texture_set_default(struct language *language, const struct texture *texture);
@@ -49,7 +55,6 @@ void finish_ambient(struct language *language, const struct value *value);
 void finish_number(struct language *language, int part, const struct value *value);
 /* A texture as a value. A declared block is complete: what it does not set has the default. */
 struct value *value_of_texture(struct language *language, const struct texture *texture);
-const char *texture_kind(const struct texture *texture); /* "a texture", "a pigment", "a finish" */
 /* A declared texture, to which layers may be added. As what is rendered is opaque, the last one counts. */
 void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture);
 void layer_begin(struct language *language, struct span place);

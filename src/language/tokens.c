@@ -314,14 +314,6 @@ void tokens_pass(struct language *language)
   language->tokens->skipping = 0;
 }
 
-void tokens_pass_vectors(struct language *language, int count)
-{
-  for (int token = '<'; count > 0 && token != 0 && token != '{' && token != '}';) {
-    token = tokens_next(language);
-    count -= token == '>' || token == PSCN_TOKEN_POINT;
-  }
-}
-
 struct span tokens_pass_block(struct language *language)
 {
   struct tokens *tokens = language->tokens;

@@ -55,9 +55,6 @@ bool tokens_recover(struct language *language);
 /* Skips what belongs to the word just read, in the same way. */
 void tokens_pass(struct language *language);
 
-/* Skips that many vectors. */
-void tokens_pass_vectors(struct language *language, int count);
-
 /* Skips a block in braces, which must follow. Returns its closing brace, or after an error where that is. */
 struct span tokens_pass_block(struct language *language);
 

@@ -25,7 +25,7 @@ struct initial {
  * that POV-Ray 3.7 reserves (grammar/povray.txt). INITIALS: the letters, and an end. */
 #include "language/word_tables.h"
 
-static const struct {
+static const struct directive {
   const char *name;
   int token;
 } DIRECTIVES[] = {{"break", TOKEN_BREAK},
@@ -78,8 +78,10 @@ static int compare_row(const void *sought, const void *row)
   return words_compare(w->text, w->length, *(const char *const *)row);
 }
 
-#define FIND(word, length, table) \
-  bsearch(&(struct sought){word, length}, table, COUNT(table), sizeof *(table), compare_row)
+const void *words_find(const char *word, size_t length, const void *table, size_t count, size_t size)
+{
+  return bsearch(&(struct sought){word, length}, table, count, size, compare_row);
+}
 
 /* Initial and length distinguish most names from the words. */
 static const struct keyword *find_word(const char *word, size_t length)
@@ -121,10 +123,8 @@ const char *words_directive(const char *text, size_t *length)
 int words_directive_token(const char *text, size_t length)
 {
   const char *name = words_directive(text, &length);
-  const char *const *found = FIND(name, length, DIRECTIVES);
-  for (size_t k = 0; found && k < COUNT(DIRECTIVES); k++)
-    if (DIRECTIVES[k].name == *found) return DIRECTIVES[k].token;
-  return TOKEN_UNKNOWN_DIRECTIVE;
+  const struct directive *found = words_find(name, length, DIRECTIVES, COUNT(DIRECTIVES), sizeof *DIRECTIVES);
+  return found ? found->token : TOKEN_UNKNOWN_DIRECTIVE;
 }
 
 static bool is_one_of(int token, const int tokens[], size_t count)

@@ -30,6 +30,9 @@ const char *words_at(enum words_kind kind, size_t index);
 /* Below, at or above 0 if word[0 .. length-1] comes before, equals, or comes behind `name` in byte order. */
 int words_compare(const char *word, size_t length, const char *name);
 
+/* The row of that word in a table of `count` rows of `size` bytes, sorted by the names with which they begin, or NULL. */
+const void *words_find(const char *word, size_t length, const void *table, size_t count, size_t size);
+
 /* "a, b or c", cut off at `size` bytes. */
 void words_list(const char *const words[], size_t count, char *out, size_t size);
 

@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "base/source.h"
 #include "base/include_path.h"
-#include "language/sources.h"
+#include "language/scan.h"
 #include "language/words.h"
 
 enum {

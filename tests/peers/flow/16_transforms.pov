@@ -6,6 +6,7 @@ light_source { <0, 8, -5>, rgb 1 transform { translate 3*x } }
 #declare Tilt = transform { rotate <20, 30, 0> scale <1, 1.5, 1> }
 #declare Aside = transform { Tilt translate <1.8, 0.3> }
 #declare Leaf = bicubic_patch { type 1 flatness 0 u_steps 6 v_steps 6
+  uv_vectors <0, 0>, <1, 0>, <1, 1>, <0, 1>
   <-1, -1>, <-0.3, -1, 0.5>, <0.3, -1, -0.5>, <1, -1>, <-1, -0.3, 0.5>, <-0.3, -0.3, 1>, <0.3, -0.3, 1>, <1, -0.3>,
   <-1, 0.3>, <-0.3, 0.3, 1>, <0.3, 0.3, 1>, <1, 0.3, 0.5>, <-1, 1>, <-0.3, 1, -0.5>, <0.3, 1, 0.5>, <1, 1> }
 #macro Put(Where, Colour)
