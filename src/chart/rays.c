@@ -72,11 +72,9 @@ enum status rays_of_shadows(const struct scene *scene, struct tracer *tracer, co
     for (size_t l = 0; l < scene->light_count; l++) {
       if (scene->lights[l].shadowless) continue;
       const size_t first = out->count;
-      for (size_t k = packet->first; k < packet->first + packet->count; k++) {
-        const bool hit = hits[k].patch != HIT_NONE;
-        out->count += hit &&
-                      shade_shadow_ray(&scene->lights[l], tracer, &camera->rays[k], &hits[k], &out->rays[out->count]);
-      }
+      bool sent[PACKET_SIZE];
+      out->count += shade_shadow_rays(&scene->lights[l], tracer, packet->count, &camera->rays[packet->first],
+                                      &hits[packet->first], &out->rays[first], sent);
       if (out->count == first) continue;
       out->packets[out->packet_count++] = (struct ray_packet){first, out->count - first, new_run};
       new_run = false;

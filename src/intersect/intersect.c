@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/real.h"
 #include "geometry/vector.h"
+#include "intersect/leave.h"
 #include "intersect/point.h"
 #include "intersect/tracer.h"
 
@@ -248,45 +249,8 @@ enum status tracer_all(struct tracer *tracer, size_t count, const struct ray ray
 
 /* ---- rays that leave a hit ---- */
 
-/* At less than this sine between ray and surface, the way back along the ray is no longer than the clearance over this.
- */
-#define LEAST_SLANT 0x1p-20
-
-/* A hit as near as this to a border of its patch, in parameters, may have another surface beside it. */
-#define BESIDE_BORDER 0x1p-20
-
 /* Starts are tried up to LEAVE_LONGER^LEAVE_TRIES times as far back. A choice: 2^20 times a clearance of some 2^-43. */
 enum { LEAVE_TRIES = 5, LEAVE_LONGER = 16 };
-
-/* The ray's point at t, each coordinate rounded and then one or two doubles nearer to the ray's origin. */
-static inline __attribute__((always_inline)) void point_short_of(const struct ray *ray, double t, double out[3])
-{
-  for (int k = 0; k < 3; k++) {
-    const double d = ray->direction[k], at = fma(t, d, ray->origin[k]);
-    out[k] = d != 0 ? at - copysign(0x1p-52 * at, d) : at;
-  }
-}
-
-#if defined(PSCN_HAS_AVX2)
-/* The same by the processor's instruction instead of libm's function: half of what a start costs. */
-__attribute__((target("fma"))) static void point_short_of_fused(const struct ray *ray, double t, double out[3])
-{
-  point_short_of(ray, t, out);
-}
-#endif
-
-/* The point of the ray that lies `back` before the hit, in units of t. What is not proven may be off the ray. */
-static inline void point_before(const struct tracer *tracer, const struct ray *ray, const struct hit *hit, double back,
-                                double out[3])
-{
-  const double t = real_max(hit->t - back, ray->t_min);
-  if (hit->certainty != CERTAINTY_CERTAIN) vector_add_scaled(hit->point, -back, ray->direction, out);
-#if defined(PSCN_HAS_AVX2)
-  else if (tracer->kernel != &kernel_baseline) point_short_of_fused(ray, t, out);
-#endif
-  else point_short_of(ray, t, out);
-  (void)tracer;
-}
 
 /* Whether nothing is between the ray's start and the point. */
 static bool start_sees(struct tracer *tracer, const struct ray *ray, const double point[3])
@@ -303,17 +267,45 @@ static bool start_sees(struct tracer *tracer, const struct ray *ray, const doubl
   return !occluded;
 }
 
+static leave_some *leave_of(const struct tracer *tracer)
+{
+#if defined(PSCN_HAS_AVX512)
+  if (tracer->kernel == &kernel_avx512) return leave_some_avx512;
+#endif
+#if defined(PSCN_HAS_AVX2)
+  if (tracer->kernel == &kernel_avx2) return leave_some_avx2;
+#endif
+  return (void)tracer, leave_some_baseline;
+}
+
+/* Where another surface is before a start, one farther back is taken. */
+static unsigned leave(struct tracer *tracer, size_t count, const struct ray rays[], const struct hit hits[],
+                      struct leaving to, struct ray out[])
+{
+  const struct left left = leave_of(tracer)(count, rays, hits, &to, out);
+  for (unsigned bits = left.beside; bits; bits &= bits - 1) {
+    const int k = __builtin_ctz(bits);
+    to.longer = 1;
+    for (int n = 0; n < LEAVE_TRIES && !start_sees(tracer, &rays[k], out[k].origin); n++) {
+      to.longer *= LEAVE_LONGER;
+      (void)leave_of(tracer)(1, &rays[k], &hits[k], &to, &out[k]);
+    }
+  }
+  return left.facing;
+}
+
 void tracer_leave(struct tracer *tracer, const struct ray *ray, const struct hit *hit, const double direction[3],
                   double out_origin[3])
 {
-  const double *d = ray->direction, longest = real_max(real_max(fabs(d[0]), fabs(d[1])), fabs(d[2]));
-  double back = hit->clearance / real_max(fabs(vector_dot(hit->normal, d)), LEAST_SLANT * longest);
-  const bool through = vector_dot(hit->normal, direction) < 0;
-  const double from_border = real_min(real_min(hit->u, 1 - hit->u), real_min(hit->v, 1 - hit->v));
-  point_before(tracer, ray, hit, through ? -back : back, out_origin);
-  if (through || hit->certainty != CERTAINTY_CERTAIN || from_border > BESIDE_BORDER) return;
-  for (int n = 0; n < LEAVE_TRIES && !start_sees(tracer, ray, out_origin); n++)
-    point_before(tracer, ray, hit, back *= LEAVE_LONGER, out_origin);
+  struct ray out;
+  (void)leave(tracer, 1, ray, hit, (struct leaving){.to = direction, .longer = 1}, &out);
+  memcpy(out_origin, out.origin, sizeof out.origin);
+}
+
+unsigned tracer_leave_for(struct tracer *tracer, size_t count, const struct ray rays[], const struct hit hits[],
+                          const double point[3], double end, struct ray out[])
+{
+  return leave(tracer, count, rays, hits, (struct leaving){point, true, 1, end}, out);
 }
 
 const struct intersect_counts *tracer_counts(const struct tracer *tracer) { return &tracer->counts; }

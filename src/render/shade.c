@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "geometry/vector.h"
+#include "intersect/leave.h"
 #include "scene/gamma.h"
 
 /* The end of shadow rays, as a fraction of the way to the light. Where a ray meets a surface under an angle of sine s
@@ -64,20 +65,17 @@ static void add_light(const struct view *view, const struct scene_light *light, 
   for (int k = 0; k < 3; k++) rgb[k] += light->color[k] * (diffuse * view->texture->pigment[k] + highlight);
 }
 
-bool shade_shadow_ray(const struct scene_light *light, struct tracer *tracer, const struct ray *ray,
-                      const struct hit *hit, struct ray *out)
+size_t shade_shadow_rays(const struct scene_light *light, struct tracer *tracer, size_t count, const struct ray rays[],
+                         const struct hit hits[], struct ray out[], bool out_sent[])
 {
-  double way[3];
-  vector_subtract(light->position, hit->point, way);
-  if (!(vector_dot(way, hit->normal) > 0)) return false;
-  tracer_leave(tracer, ray, hit, way, out->origin);
-  vector_subtract(light->position, out->origin, out->direction);
-  const double *d = out->direction;
-  if (d[0] == 0 && d[1] == 0 && d[2] == 0) /* the light is at the very point we moved to */
-    memcpy(out->direction, way, sizeof way);
-  out->t_min = 0;
-  out->t_max = SHADOW_END;
-  return true;
+  const unsigned facing = tracer_leave_for(tracer, count, rays, hits, light->position, SHADOW_END, out);
+  size_t sent = 0;
+  for (size_t k = 0; k < count; k++) {
+    out_sent[k] = facing >> k & 1;
+    if (out_sent[k] && sent < k) out[sent] = out[k];
+    sent += out_sent[k];
+  }
+  return sent;
 }
 
 void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct ray rays[],
@@ -85,11 +83,7 @@ void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t co
 {
   struct ray shadow[PACKET_SIZE];
   bool hidden[PACKET_SIZE] = {false};
-  size_t sent = 0;
-  for (size_t k = 0; k < count; k++) {
-    out_lit[k] = hits[k].patch != HIT_NONE && shade_shadow_ray(light, tracer, &rays[k], &hits[k], &shadow[sent]);
-    sent += out_lit[k];
-  }
+  const size_t sent = shade_shadow_rays(light, tracer, count, rays, hits, shadow, out_lit);
   if (sent > 0 && !light->shadowless) tracer_occluded(tracer, sent, shadow, hidden);
   for (size_t k = 0, ray = 0; k < count; k++)
     if (out_lit[k]) out_lit[k] = !hidden[ray++];

@@ -19,11 +19,11 @@
 #include "intersect/intersect.h"
 #include "scene/scene.h"
 
-/* The shadow ray from `hit` to `light`. It starts on `ray` before the hit (tracer_leave), and ends
- * 2^-26 of the way before the light, so that a surface on which the light lies does not hide it. Returns false, and writes nothing, if the light is not on
- * the viewer's side. */
-bool shade_shadow_ray(const struct scene_light *light, struct tracer *tracer, const struct ray *ray,
-                      const struct hit *hit, struct ray *out);
+/* The shadow rays of `count` <= PACKET_SIZE hits on whose viewer's side the light is; out_sent says which these are.
+ * Returns their number; `out` has room for `count`. Each starts on its ray before the hit (tracer_leave), and ends 2^-26
+ * of the way before the light, so that a surface on which the light lies does not hide it. */
+size_t shade_shadow_rays(const struct scene_light *light, struct tracer *tracer, size_t count, const struct ray rays[],
+                         const struct hit hits[], struct ray out[], bool out_sent[]);
 
 /* Which of `count` <= PACKET_SIZE hits the light reaches: it is on the viewer's side, and nothing hides it. */
 void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct ray rays[],

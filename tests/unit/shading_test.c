@@ -43,9 +43,8 @@ static void expected_colour(const double point[3], const struct scene *scene, do
   }
 }
 
-static void colours_follow_the_formulas(void **state)
+TEST(colours_follow_the_formulas)
 {
-  (void)state;
   struct scene scene = scene_of();
   const struct scene_texture saved = texture;
   patches[1] = square(9, 2, 0); /* fills the picture */
@@ -86,9 +85,8 @@ static void colours_follow_the_formulas(void **state)
 }
 
 /* Light is added up in the scene's space, and then becomes linear. */
-static void light_is_added_in_its_space(void **state)
+TEST(light_is_added_in_its_space)
 {
-  (void)state;
   struct scene scene = scene_of();
   const struct render_options options = options_of("rgb");
   const double gammas[] = {2, GAMMA_SRGB, 0.001, 30};
@@ -108,9 +106,8 @@ static void light_is_added_in_its_space(void **state)
 }
 
 /* A negative diffuse part does not reduce the ambient colour. */
-static void nothing_darkens(void **state)
+TEST(nothing_darkens)
 {
-  (void)state;
   struct scene scene = scene_of();
   const struct scene_texture saved = texture;
   scene.patches = &patches[1];
@@ -129,9 +126,8 @@ static void nothing_darkens(void **state)
 }
 
 /* Powers, colours and products as large as a scene can ask for are at most too bright for a float, never NaN. */
-static void extreme_colours_are_numbers(void **state)
+TEST(extreme_colours_are_numbers)
 {
-  (void)state;
   struct scene scene = scene_of();
   const struct scene_texture saved = texture;
   const struct scene_light light = lights[0];
@@ -160,9 +156,8 @@ static void extreme_colours_are_numbers(void **state)
 }
 
 /* In a mirror's direction rounding makes cosines exceed 1. Their large powers must still be 1, not a blinding spot. */
-static void highlights_are_no_brighter_than_their_light(void **state)
+TEST(highlights_are_no_brighter_than_their_light)
 {
-  (void)state;
   struct scene scene = scene_of();
   const struct scene_texture saved = texture;
   const struct scene_light light = lights[0];
@@ -188,9 +183,8 @@ static void highlights_are_no_brighter_than_their_light(void **state)
 
 /* The shadow ray begins beside the surface and ends at the light, also along an axis. It has a direction even if the
  * light is exactly where it begins. */
-static void a_light_may_be_where_its_shadow_ray_begins(void **state)
+TEST(a_light_may_be_where_its_shadow_ray_begins)
 {
-  (void)state;
   const struct scene scene = scene_of();
   struct intersector *intersector;
   struct tracer *tracer;
@@ -201,10 +195,12 @@ static void a_light_may_be_where_its_shadow_ray_begins(void **state)
   tracer_closest(tracer, 1, &ray, &hit);
   struct scene_light light = {.position = {2, 1, 1}};
   struct ray shadow;
-  assert_true(shade_shadow_ray(&light, tracer, &ray, &hit, &shadow));
+  bool sent;
+  assert_int_equal(shade_shadow_rays(&light, tracer, 1, &ray, &hit, &shadow, &sent), 1);
   assert_true(shadow.direction[0] == 0 && shadow.direction[2] == light.position[2] - shadow.origin[2]);
   memcpy(light.position, shadow.origin, sizeof light.position);
-  assert_true(shade_shadow_ray(&light, tracer, &ray, &hit, &shadow));
+  assert_int_equal(shade_shadow_rays(&light, tracer, 1, &ray, &hit, &shadow, &sent), 1);
+  assert_true(sent);
   assert_memory_equal(light.position, shadow.origin, sizeof light.position);
   assert_true(shadow.direction[2] < 0);
   tracer_destroy(tracer);
@@ -212,9 +208,8 @@ static void a_light_may_be_where_its_shadow_ray_begins(void **state)
 }
 
 /* A point hidden from the only light has the ambient colour, unless the light is shadowless. */
-static void shadows_are_cast(void **state)
+TEST(shadows_are_cast)
 {
-  (void)state;
   struct scene scene = scene_of();
   scene.light_count = 1;
   /* The light is straight in front of two flat squares. The front one, with half a side of 1, hides 5/3 of the other,
@@ -245,9 +240,8 @@ static void shadows_are_cast(void **state)
 }
 
 /* A light on a surface is not hidden by it, however its position and the shadow rays' ends are rounded. */
-static void a_light_may_lie_on_a_surface(void **state)
+TEST(a_light_may_lie_on_a_surface)
 {
-  (void)state;
   struct scene scene = scene_of();
   scene.light_count = 1;
   patches[0] = square(1, 0, 0);
@@ -271,19 +265,4 @@ static void a_light_may_lie_on_a_surface(void **state)
   }
   free(out);
   assert_true(lit > 1000);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(colours_follow_the_formulas),
-    cmocka_unit_test(light_is_added_in_its_space),
-    cmocka_unit_test(nothing_darkens),
-    cmocka_unit_test(extreme_colours_are_numbers),
-    cmocka_unit_test(highlights_are_no_brighter_than_their_light),
-    cmocka_unit_test(a_light_may_be_where_its_shadow_ray_begins),
-    cmocka_unit_test(shadows_are_cast),
-    cmocka_unit_test(a_light_may_lie_on_a_surface),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
