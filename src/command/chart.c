@@ -71,25 +71,21 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   return status;
 }
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {.scene = SCENE_REQUEST_DEFAULT,
+                                        .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
+                                        .folder = {.suffix = "-chart", .page = "chart.html"}};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct request request = {.scene = SCENE_REQUEST_DEFAULT,
-                            .command = command,
-                            .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
-                            .folder = {.suffix = "-chart", .page = "chart.html"}};
-  struct command_line line;
-  char *command_line = command_line_text(argc, argv);
-  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
-  if (status == STATUS_OK && !line.help) {
-    request.chart.path = request.scene.path = request.folder.scene = line.positional[0];
-    request.chart.command_line = command_line == NULL ? "" : command_line;
-    request.chart.peers = !request.no_peers;
-    status = output_folder_fill(command, &request.folder, request.scene.quiet, work, &request);
-  }
-  free(command_line);
-  free(request.chart.solvers);
-  return status;
+  struct request *request = context;
+  request->command = command;
+  request->chart.path = request->scene.path = request->folder.scene = line->positional[0];
+  request->chart.command_line = line->text;
+  request->chart.peers = !request->no_peers;
+  return output_folder_fill(command, &request->folder, request->scene.quiet, work, request);
 }
+
+static void end(void *context) { free(((struct request *)context)->chart.solvers); }
 
 const struct command command_chart = {
   .name = "chart",
@@ -106,6 +102,6 @@ const struct command command_chart = {
     "finds the errors. DIR receives chart.csv with every point, chart.svg (drawn by gnuplot) and the self-contained\n"
     "chart.html. Standard output has the Pareto front. Solver statements of the scene are ignored; with\n"
     "--solver only the named solvers and the default are charted.\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(1, take_option),
+  .end = end,
 };

@@ -140,36 +140,35 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   return status;
 }
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {.scene = SCENE_REQUEST_DEFAULT,
+                                        .check = {.program = "povray",
+                                                  .timeout = POVRAY_TIMEOUT,
+                                                  .steps = 6,
+                                                  .grid = 8,
+                                                  .fail = {.each = 4.0 / 255, .percent = 0.3, .any = INFINITY},
+                                                  .fail_psnr = 40,
+                                                  .fail_mask = 0.3},
+                                        .folder = {.suffix = "-check", .page = "check.html"}};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct request request = {.command = command,
-                            .scene = SCENE_REQUEST_DEFAULT,
-                            .check = {.program = "povray",
-                                      .timeout = POVRAY_TIMEOUT,
-                                      .steps = 6,
-                                      .grid = 8,
-                                      .fail = {.each = 4.0 / 255, .percent = 0.3, .any = INFINITY},
-                                      .fail_psnr = 40,
-                                      .fail_mask = 0.3},
-                            .folder = {.suffix = "-check", .page = "check.html"}};
-  struct command_line line;
-  char *command_line = command_line_text(argc, argv), *declared = NULL;
-  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
-  if (status == STATUS_OK && !line.help) {
-    request.check.path = request.scene.path = request.folder.scene = line.positional[0];
-    request.check.width = request.scene.width;
-    request.check.height = request.scene.height;
-    request.check.command_line = command_line == NULL ? "" : command_line;
-    status = prepare(command, &request.check);
-    request.check.dumped = dumped_because(&request);
-    if (status == STATUS_OK && request.check.dumped == NULL) status = declare_numbers(command, &request, &declared);
-    if (status == STATUS_OK) status = output_folder_fill(command, &request.folder, request.scene.quiet, work, &request);
-  }
-  free(command_line);
+  struct request *request = context;
+  struct check_request *check = &request->check;
+  char *declared = NULL;
+  request->command = command;
+  check->path = request->scene.path = request->folder.scene = line->positional[0];
+  check->width = request->scene.width;
+  check->height = request->scene.height;
+  check->command_line = line->text;
+  enum status status = prepare(command, check);
+  check->dumped = dumped_because(request);
+  if (status == STATUS_OK && check->dumped == NULL) status = declare_numbers(command, request, &declared);
+  if (status == STATUS_OK) status = output_folder_fill(command, &request->folder, request->scene.quiet, work, request);
   free(declared);
-  free(request.options);
   return status;
 }
+
+static void end(void *context) { free(((struct request *)context)->options); }
 
 const struct command command_check = {
   .name = "check",
@@ -193,6 +192,6 @@ const struct command command_check = {
     "reads the dump (pscn dump). It reads the dump for all pictures with --dump, and if the scene could read or write "
     "other\n"
     "files.\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(1, take_option),
+  .end = end,
 };

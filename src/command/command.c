@@ -168,7 +168,8 @@ static char *add_argument(char *end, const char *argument)
   return end + sprintf(end, "'");
 }
 
-char *command_line_text(int argc, const char **argv)
+/* The command line, quoted for a shell; NULL if memory is short. The caller frees it. */
+static char *command_line_text(int argc, const char **argv)
 {
   size_t size = sizeof "pscn";
   for (int k = 0; k < argc; k++) size += 4 * strlen(argv[k]) + 3; /* a blank and two quotes */
@@ -290,9 +291,9 @@ static const struct command_option *find_option(const struct command *command, i
 
 /* Stores the option's argument, or passes it to the handler. */
 static enum status store_option(const struct command *command, const struct command_option *option,
-                                const char *argument, command_option_handler *handle, void *context)
+                                const char *argument, void *request)
 {
-  void *const field = (char *)context + option->offset;
+  void *const field = (char *)request + option->offset;
   double number;
   switch (option->store) {
   case STORE_TEXT: *(const char **)field = argument; return STATUS_OK;
@@ -310,17 +311,18 @@ static enum status store_option(const struct command *command, const struct comm
     if (value_integer(argument, option->least, option->most, field)) return STATUS_OK;
     return command_usage(command, "'%s' is not a %s from %zu to %zu", argument, option->what, option->least,
                          option->most);
-  default: return handle(command, context, option->val, argument);
+  default: return command->take(command, request, option->val, argument);
   }
 }
 
-enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
-                              command_option_handler *handle, void *context, struct command_line *out)
+/* Reads options into the request. *out_help: --help was among them, and is answered. */
+static enum status read_line(const struct command *command, int argc, const char **argv, void *request,
+                             struct command_line *out, bool *out_help)
 {
   struct getopt_tables tables;
   make_tables(command, &tables);
   const char *foreign = NULL; /* the last option of POV-Ray's */
-  *out = (struct command_line){.positional = argv};
+  out->positional = argv;
   optind = 0; /* getopt_long starts anew */
   for (int at = 1, found;; at = optind) {
     found = getopt_long(argc, (char *const *)argv, tables.letters, tables.names, NULL);
@@ -342,22 +344,42 @@ enum status command_line_read(const struct command *command, int argc, const cha
     if (option == NULL) return STATUS_USAGE;
     if (option->val == OPTION_HELP) {
       command_print_help(command, stdout);
-      out->help = true;
+      *out_help = true;
       return command_finish_output(command);
     }
     const bool equals = found < FIRST_LONG && !apart && optarg != NULL && optarg[0] == '='; /* -o=FILE */
-    const enum status status = store_option(command, option, equals ? optarg + 1 : optarg, handle, context);
+    const enum status status = store_option(command, option, equals ? optarg + 1 : optarg, request);
     if (status != STATUS_OK) return status;
   }
   while (optind < argc) /* after "--" */
     argv[out->positional_count++] = argv[optind++];
   if (foreign != NULL) return try_help(command);
-  if (out->positional_count < count)
+  if (out->positional_count < command->operands)
     return command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
-  const size_t most = count + (strchr(command->arguments, '[') != NULL);
+  const size_t most = command->operands + (strchr(command->arguments, '[') != NULL);
   if (out->positional_count > most && strstr(command->arguments, "...") == NULL)
     return command_usage(command, "one argument too many: '%s'", out->positional[most]);
   return STATUS_OK;
+}
+
+enum status command_run(const struct command *command, int argc, const char **argv)
+{
+  char *text = command_line_text(argc, argv);
+  void *request = malloc(command->request_size);
+  struct command_line line = {.text = text == NULL ? "" : text};
+  bool help = false;
+  enum status status = STATUS_LIMIT;
+  if (request != NULL) {
+    memcpy(request, command->request, command->request_size);
+    status = read_line(command, argc, argv, request, &line, &help);
+    if (status == STATUS_OK && !help) status = command->run(command, request, &line);
+    if (command->end != NULL) command->end(request);
+  } else {
+    (void)command_out_of_memory(command);
+  }
+  free(request);
+  free(text);
+  return status;
 }
 
 enum status command_finish_output(const struct command *command)

@@ -31,14 +31,34 @@ struct command_option {
   const char *what;   /* for errors: "number of samples" */
 };
 
+struct command_line {
+  const char **positional; /* positional_count of them, at the beginning of argv, which is overwritten */
+  size_t positional_count;
+  const char *text; /* all of it, quoted for a shell; "" if memory is short */
+};
+
+struct command;
+typedef enum status command_option_handler(const struct command *command, void *request, int val, const char *argument);
+
 struct command {
   const char *name;
   const char *arguments;                /* as in the usage line, "SCENE" */
   const char *summary;                  /* one line */
   const char *description;              /* paragraphs for `pscn help NAME`, ending with a newline */
   const struct command_option *options; /* ended by COMMAND_OPTIONS_END */
-  enum status (*run)(const struct command *command, int argc, const char **argv); /* argv[0] is the command's name */
+  size_t operands; /* how many arguments are not options; one more is allowed if `arguments` names one in brackets, any
+                      number if it ends with "..." */
+  command_option_handler *take; /* gets the val and the argument (NULL if it takes none) of each option that is not
+                                   stored directly. It returns STATUS_OK, or another status after printing its error */
+  const void *request;          /* the file's struct request before options are read */
+  size_t request_size;
+  enum status (*run)(const struct command *command, void *request, const struct command_line *line);
+  void (*end)(void *request); /* frees what `take` and `run` have put there; or NULL */
 };
+
+/* Reads the command line and runs the command, or prints its help or an error. Options may stand anywhere before "--".
+ * argv[0] is the command's name, and argv ends with NULL. Not thread-safe. */
+enum status command_run(const struct command *command, int argc, const char **argv) STATUS_MUST_CHECK;
 
 extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_merge,
   command_check, command_chart, command_help;
@@ -79,32 +99,12 @@ struct command_ear {
 };
 struct listener command_listener(struct command_ear *ear);
 
-/* Reads a command line into the request at `context`. `handle` gets the val and the argument (NULL if it takes none) of
- * each option that is not stored directly. It returns STATUS_OK, or another status after printing its error. --help is
- * answered here. Options may stand anywhere before "--". Not thread-safe. */
-struct command_line {
-  const char **positional; /* positional_count of them, at the beginning of argv, which is overwritten */
-  size_t positional_count;
-  bool help; /* --help was given and answered: the command is done */
-};
-
-typedef enum status command_option_handler(const struct command *command, void *context, int val, const char *argument);
-
-/* Returns STATUS_USAGE, after printing the error, if options are wrong or if the number of other arguments is not
- * `count`; one more is allowed if the command's arguments name one in brackets, any number if they end with "...". argv ends with NULL. */
-enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
-                              command_option_handler *handle, void *context,
-                              struct command_line *out) STATUS_MUST_CHECK;
-
 /* Flushes stdout. Returns STATUS_FILE, after printing the error, if something was not written. Need not be checked if
  * the command fails anyway. */
 enum status command_finish_output(const struct command *command);
 
-/* The command line, quoted for a shell; NULL if memory is short. The caller frees it. */
-char *command_line_text(int argc, const char **argv);
-
 /* Rows of the table: one for an option that goes to the handler, and the one for --help, which every command has and
- * command_line_read answers. `letter` is the short name, or 0. */
+ * command_run answers. `letter` is the short name, or 0. */
 enum { OPTION_HELP = 1000 };
 #define COMMAND_OPTION(name, letter, val, text, argument)       \
   {                                                             \
@@ -112,6 +112,11 @@ enum { OPTION_HELP = 1000 };
   }
 #define COMMAND_HELP_OPTION COMMAND_OPTION("help", 'h', OPTION_HELP, "show this text", NULL)
 #define COMMAND_OPTIONS_END COMMAND_OPTION(NULL, 0, 0, NULL, NULL)
+
+/* The members of a command whose file has OPTIONS, DEFAULTS, its struct request before options are read, and run. */
+#define COMMAND_RUNS(count, taker)                                                                             \
+  .options = OPTIONS, .operands = count, .take = taker, .request = &DEFAULTS, .request_size = sizeof DEFAULTS, \
+  .run = run
 
 /* Rows for options stored in a field of the file's own struct request: const char *, bool, double twice, size_t. */
 #define COMMAND_STORED(name, letter, store, field, text, argument, least, most, what)          \

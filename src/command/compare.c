@@ -10,7 +10,7 @@
 #include "image/image_file.h"
 
 /* Smaller differences do not count unless options say otherwise; idiff's default is the same. */
-static const double DEFAULT_LIMIT = 1e-6;
+#define DEFAULT_LIMIT 1e-6
 
 struct request {
   const char *first, *second, *output, *channels;
@@ -222,18 +222,15 @@ done:
   return status;
 }
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {
+  .scale = 1, .fail = {.each = DEFAULT_LIMIT, .any = INFINITY}, .warn = {.each = INFINITY, .any = INFINITY}};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct request request = {
-    .scale = 1, .fail = {.each = DEFAULT_LIMIT, .any = INFINITY}, .warn = {.each = INFINITY, .any = INFINITY}};
-  struct command_line line;
-  enum status status = command_line_read(command, argc, argv, 2, NULL, &request, &line);
-  if (status == STATUS_OK && !line.help) {
-    request.first = line.positional[0];
-    request.second = line.positional[1];
-    status = compare(command, &request);
-  }
-  return status;
+  struct request *request = context;
+  request->first = line->positional[0];
+  request->second = line->positional[1];
+  return compare(command, request);
 }
 
 const struct command command_compare = {
@@ -246,6 +243,5 @@ const struct command command_compare = {
     "numbers are defined as those of OpenImageIO's idiff. Channels are paired by name. Limits may be quotients: "
     "4/255.\n"
     "The exit code is 1 if the pictures differ by more than the limits, or in size or channels.\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(2, NULL),
 };

@@ -15,19 +15,17 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END,
 };
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {.scene = SCENE_REQUEST_DEFAULT};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct command_line line;
-  struct request request = {.scene = SCENE_REQUEST_DEFAULT};
+  struct request *request = context;
   struct scene *scene = NULL;
-  enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
-  if (status == STATUS_OK && !line.help) {
-    request.scene.path = line.positional[0];
-    status = scene_file_load(command, &request.scene, &scene);
-    if (status == STATUS_OK) {
-      (void)!scene_dump(scene, stdout); /* if something was not written, the next line tells the reason */
-      status = command_finish_output(command);
-    }
+  request->scene.path = line->positional[0];
+  enum status status = scene_file_load(command, &request->scene, &scene);
+  if (status == STATUS_OK) {
+    (void)!scene_dump(scene, stdout); /* if something was not written, the next line tells the reason */
+    status = command_finish_output(command);
   }
   scene_destroy(scene);
   return status;
@@ -40,6 +38,5 @@ const struct command command_dump = {
   .description =
     "Names, includes, arithmetic and transforms are resolved; the text goes to standard output. The dump of a dump is\n"
     "the same text.\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(1, scene_request_take),
 };

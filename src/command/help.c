@@ -50,21 +50,23 @@ static const struct {
   void (*print)(void);
 } TOPICS[] = {{"solver", print_solver_help}, {"channels", print_channels_help}};
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const char DEFAULTS = 0; /* it has no options */
+
+static enum status run(const struct command *command, void *request, const struct command_line *line)
 {
-  if (argc > 2) return command_usage(NULL, "one argument too many: '%s'", argv[2]);
-  if (argc < 2) {
+  const char *name = line->positional_count == 0 ? NULL : line->positional[0];
+  (void)request;
+  if (name == NULL) {
     command_print_overview(stdout);
     return command_finish_output(command);
   }
   for (size_t k = 0; k < sizeof TOPICS / sizeof *TOPICS; k++) {
-    if (strcmp(argv[1], TOPICS[k].name) != 0) continue;
+    if (strcmp(name, TOPICS[k].name) != 0) continue;
     TOPICS[k].print();
     return command_finish_output(command);
   }
-  const bool itself = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0;
-  const struct command *subject = itself ? command : command_find(argv[1]);
-  if (subject == NULL) return command_unknown(argv[1]);
+  const struct command *subject = command_find(name);
+  if (subject == NULL) return command_unknown(name);
   command_print_help(subject, stdout);
   return command_finish_output(command);
 }
@@ -77,6 +79,5 @@ const struct command command_help = {
     "Without an argument it lists the commands. `pscn help solver` lists the solvers and their items, `pscn "
     "help channels`\n"
     "the channels of a picture.\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(0, NULL),
 };

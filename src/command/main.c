@@ -50,7 +50,7 @@ static enum status run_call(void *context, size_t worker)
   struct call *call = context;
   (void)worker;
   call->ran = true;
-  return call->command->run(call->command, call->argc, call->argv);
+  return command_run(call->command, call->argc, call->argv);
 }
 
 int main(int argc, char **argv)

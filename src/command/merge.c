@@ -301,17 +301,17 @@ static enum status check(const struct command *command, struct request *request,
   return status == STATUS_OK ? output_probe(command, request->output) : status;
 }
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {.output = NULL};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct request request = {.output = NULL};
-  struct command_line line;
-  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
-  if (status == STATUS_OK && !line.help) status = check(command, &request, &line);
-  if (status != STATUS_OK || line.help) return status;
-  struct merge merge = {.command = command, .request = &request, .count = line.positional_count};
+  struct request *request = context;
+  enum status status = check(command, request, line);
+  if (status != STATUS_OK) return status;
+  struct merge merge = {.command = command, .request = request, .count = line->positional_count};
   merge.file = calloc(merge.count, sizeof *merge.file);
   if (merge.file == NULL) return command_out_of_memory(command);
-  for (size_t k = 0; k < merge.count; k++) merge.file[k].path = line.positional[k];
+  for (size_t k = 0; k < merge.count; k++) merge.file[k].path = line->positional[k];
   status = put_together(&merge);
   for (size_t k = 0; k < merge.count; k++) piece_destroy(&merge.file[k].piece);
   piece_destroy(&merge.picture);
@@ -335,6 +335,5 @@ const struct command command_merge = {
     "another\n"
     "piece, no picture is written and the exit code is 1. Standard output then has the numbers of the pieces that are\n"
     "still to be rendered, such as 2,5-7, in the form of sbatch --array.\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(1, take_option),
 };

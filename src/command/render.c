@@ -30,7 +30,7 @@ struct request {
 enum { MAX_FRAME = 999999 };
 
 /* Seconds after which what is done is kept again. With the time that keeping takes, at most a minute is lost. */
-static const double DEFAULT_CHECKPOINT = 30;
+#define DEFAULT_CHECKPOINT 30.0
 
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
@@ -273,19 +273,18 @@ static enum status make_frames(const struct command *command, const struct reque
   return status;
 }
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {
+  .scene = SCENE_REQUEST_DEFAULT,
+  .picture = {.options = {.samples = 1, .channels = {.count = 1, .width = 3, .kind = {CHANNEL_RGB}}},
+              .channels = "rgb",
+              .checkpoint = DEFAULT_CHECKPOINT}};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct request request = {.scene = SCENE_REQUEST_DEFAULT,
-                            .picture = {.options = {.samples = 1,
-                                                    .threads = render_processors(),
-                                                    .channels = {.count = 1, .width = 3, .kind = {CHANNEL_RGB}}},
-                                        .channels = "rgb",
-                                        .checkpoint = DEFAULT_CHECKPOINT}};
-  struct command_line line;
-  const enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
-  if (status != STATUS_OK || line.help) return status;
-  request.scene.path = line.positional[0];
-  return request.scene.last_frame > 0 ? make_frames(command, &request) : make(command, &request);
+  struct request *request = context;
+  request->scene.path = line->positional[0];
+  if (request->picture.options.threads == 0) request->picture.options.threads = render_processors();
+  return request->scene.last_frame > 0 ? make_frames(command, request) : make(command, request);
 }
 
 const struct command command_render = {
@@ -321,6 +320,5 @@ const struct command command_render = {
     "  residual  |P|/delta of the hit as a root, eq 11 of the paper: accurate below 1; 0 on a miss\n"
     "  deviation relative difference of the distance from the default solver's, which is certified; 0 if both miss,\n"
     "            infinity if one does\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(1, take_option),
 };

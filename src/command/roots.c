@@ -383,18 +383,15 @@ static enum status roots(const struct command *command, const struct request *re
   return status == STATUS_OK && session.doubtful > 0 ? STATUS_DIFFERENT : status;
 }
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {.scene.tolerance = NAN};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct request request = {.scene.tolerance = NAN};
-  struct command_line line;
-  enum status status = command_line_read(command, argc, argv, 0, take_option, &request, &line);
-  if (status == STATUS_OK && !line.help) {
-    static char buffer[OUTPUT_BUFFER];
-    (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
-    request.path = line.positional_count == 0 ? NULL : line.positional[0];
-    status = roots(command, &request);
-  }
-  return status;
+  struct request *request = context;
+  static char buffer[OUTPUT_BUFFER];
+  (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+  request->path = line->positional_count == 0 ? NULL : line->positional[0];
+  return roots(command, request);
 }
 
 const struct command command_roots = {
@@ -419,6 +416,5 @@ const struct command command_roots = {
     "\n"
     "--iterates: a row for every value of the solver's iteration, in order: number of the line, step (0: the start),\n"
     "number of the root as the solver counts them, re, im. Roots that need no iteration have no rows.\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(0, take_option),
 };

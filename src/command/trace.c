@@ -257,19 +257,16 @@ done:
   return status;
 }
 
-static enum status run(const struct command *command, int argc, const char **argv)
+static const struct request DEFAULTS = {.scene = SCENE_REQUEST_DEFAULT};
+
+static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
-  struct request request = {.scene = SCENE_REQUEST_DEFAULT};
-  struct command_line line;
-  enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
-  if (status == STATUS_OK && !line.help) {
-    static char buffer[OUTPUT_BUFFER];
-    (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
-    request.scene.path = line.positional[0];
-    request.rays = line.positional_count == 1 ? NULL : line.positional[1];
-    status = trace(command, &request);
-  }
-  return status;
+  struct request *request = context;
+  static char buffer[OUTPUT_BUFFER];
+  (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+  request->scene.path = line->positional[0];
+  request->rays = line->positional_count == 1 ? NULL : line->positional[1];
+  return trace(command, request);
 }
 
 const struct command command_trace = {
@@ -301,6 +298,5 @@ const struct command command_trace = {
     "what\n"
     "became of each, and the nearest hit so far with its certificate; then the answer. To try another solver:\n"
     "pscn trace SCENE --explain <ray | sed -n 's/^  r: //p' | pscn roots --format table\n",
-  .options = OPTIONS,
-  .run = run,
+  COMMAND_RUNS(1, scene_request_take),
 };

@@ -19,7 +19,7 @@ static int run(const char *const arguments[])
   while (arguments[argc]) argv[argc] = arguments[argc], argc++;
   const struct command *command = command_find(argv[0]);
   assert_non_null(command);
-  const int code = (int)command->run(command, argc, argv);
+  const int code = (int)command_run(command, argc, argv);
   fflush(stdout);
   return code;
 }

@@ -54,7 +54,7 @@ static int run(const char *const arguments[])
     close(file);
   }
   armed = true;
-  const int code = (int)command->run(command, argc, argv);
+  const int code = (int)command_run(command, argc, argv);
   armed = false;
   fflush(NULL);
   for (int k = 0; k < 3; k++) dup2(saved[k], k), close(saved[k]);
@@ -328,19 +328,17 @@ static void make_povray(void)
   assert_int_equal(chmod(povray, 0700), 0);
 }
 
+/* The command line of a check of SCENE. */
+#define CHECK_OF(scene)                                                                                            \
+  {                                                                                                                \
+    "check", PSCN_SOURCE_DIR scene, "--quiet", "--povray", povray, "--size", "8x6", "--steps", "0", "--grid", "2", \
+      "--failpercent", "100", "--failpsnr", "0", "--failmask", "100", "-o", results, NULL                          \
+  }
+
 static void test_check(void **state)
 {
   (void)state;
-  const char *const arguments[] = {"check",   PSCN_SOURCE_DIR "/tests/cli/scenes/bent.pscn",
-                                   "--quiet", "--povray",
-                                   povray,    "--size",
-                                   "8x6",     "--steps",
-                                   "0",       "--grid",
-                                   "2",       "--failpercent",
-                                   "100",     "--failpsnr",
-                                   "0",       "--failmask",
-                                   "100",     "-o",
-                                   results,   NULL};
+  const char *const arguments[] = CHECK_OF("/tests/cli/scenes/bent.pscn");
   make_picture();
   snprintf(page, sizeof page, "%s/check.html", results);
   assert_true(fail_each(arguments, FORK, FOLDER, NULL) > 1); /* POV-Ray */
@@ -352,16 +350,7 @@ static void test_check(void **state)
 static void test_check_includes(void **state)
 {
   (void)state;
-  const char *const arguments[] = {"check",   PSCN_SOURCE_DIR "/scenes/nested.pscn",
-                                   "--quiet", "--povray",
-                                   povray,    "--size",
-                                   "8x6",     "--steps",
-                                   "0",       "--grid",
-                                   "2",       "--failpercent",
-                                   "100",     "--failpsnr",
-                                   "0",       "--failmask",
-                                   "100",     "-o",
-                                   results,   NULL};
+  const char *const arguments[] = CHECK_OF("/scenes/nested.pscn");
   make_picture();
   snprintf(page, sizeof page, "%s/check.html", results);
   assert_true(fail_each(arguments, OPEN, FOLDER, NULL) > 2);

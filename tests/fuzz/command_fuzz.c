@@ -38,7 +38,7 @@ static int run(const char *argv[], const uint8_t *data, size_t size)
   put("standard-input", data, size);
   const int input = open("standard-input", O_RDONLY);
   assert(command && input >= 0 && dup2(input, STDIN_FILENO) == STDIN_FILENO && close(input) == 0);
-  const int code = (int)command->run(command, argc, argv);
+  const int code = (int)command_run(command, argc, argv);
   assert(code >= STATUS_OK && code <= STATUS_LIMIT);
   assert(fflush(stdout) == 0);
   return code;
