@@ -5,12 +5,11 @@ Reads .bpt files, whose patches are a line of the two degrees and then the point
 patches, a line of 16 numbers of points for each, the number of points, and these. In both z is up; y is here.
 """
 import re
-import sys
 
 import patches
 
 
-def main(path):
+def nets_of(path):
     words = re.split(r"[\s,]+", patches.read(path).strip())
     lines = [re.split(r"[\s,]+", line.strip()) for line in patches.read(path).splitlines() if line.strip()]
     try:
@@ -33,10 +32,8 @@ def main(path):
         patches.fail(path, "this is no list of patches")
     if not nets or any(len(point) != 3 for net in nets for point in net):
         patches.fail(path, "the file ends within a patch")
-    patches.write([[(x, z, y) for x, y, z in net] for net in nets])
+    return [[(x, z, y) for x, y, z in net] for net in nets]
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(sys.argv[1])
+    patches.run(__doc__, nets_of)

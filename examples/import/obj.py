@@ -4,8 +4,6 @@
 Reads `cstype bezier` surfaces of degree 3 by 3, of any number of patches each. OBJ's coordinates are right-handed: z
 changes its sign. Polygons and curves are left out.
 """
-import sys
-
 import patches
 
 
@@ -22,7 +20,7 @@ def surface(path, points, words, parameters):
             yield [net[(v + i) * width + u + j] for i in range(4) for j in range(4)]
 
 
-def main(path):
+def nets_of(path):
     points, nets, kind, degree, surf, parameters = [], [], "", [], None, {}
     for line in patches.read(path).replace("\\\n", " ").splitlines():
         words = line.split("#")[0].split()
@@ -47,12 +45,8 @@ def main(path):
                 surf = None
         except (ValueError, IndexError):
             patches.fail(path, f"not understood: {line.strip()}")
-    if not nets:
-        patches.fail(path, "it has no bezier surfaces")
-    patches.write(nets)
+    return nets
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(sys.argv[1])
+    patches.run(__doc__, nets_of)

@@ -7,7 +7,6 @@ refused.
 """
 import math
 import re
-import sys
 
 import patches
 
@@ -92,7 +91,7 @@ def basis(name, step):
     return BASES[name][0], int(step)
 
 
-def main(path):
+def nets_of(path):
     nets, stack = [], []
     matrix, bases = IDENTITY, [BASES["bezier"], BASES["bezier"]]
     for words in statements(patches.read(path)):
@@ -129,12 +128,8 @@ def main(path):
                 nets.extend(mesh_nets(points, *sides, bases))
         except (ValueError, IndexError, KeyError, TypeError):
             patches.fail(path, f"not understood: {name} ...")
-    if not nets:
-        patches.fail(path, "it has no bicubic patches")
-    patches.write(nets)
+    return nets
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(sys.argv[1])
+    patches.run(__doc__, nets_of)

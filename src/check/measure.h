@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "check/check.h"
+#include "intersect/intersect.h"
 #include "page/povray.h"
 
 enum {

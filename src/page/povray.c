@@ -11,6 +11,7 @@
 #include "base/number.h"
 #include "page/process.h"
 #include "image/image_file.h"
+#include "intersect/intersect.h"
 #include "page/plain_copy.h"
 #include "scene/dump.h"
 
@@ -378,7 +379,7 @@ static enum status read_answers(const struct povray *povray, size_t count, doubl
                        : listener_fail(povray->listener, STATUS_INPUT, "POV-Ray's trace() printed too few distances");
 }
 
-enum status povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray rays[],
+enum status povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray *rays,
                        double out_distance[], unsigned char *out_mask)
 {
   const size_t pixels = povray->width * povray->height;

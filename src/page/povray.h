@@ -16,8 +16,9 @@
 #include "page/plain_copy.h"
 #include "page/scratch.h"
 #include "image/image.h"
-#include "intersect/intersect.h"
-#include "scene/scene.h"
+
+struct ray;
+struct scene;
 
 /* Seconds that one run may take, by default. */
 #define POVRAY_TIMEOUT 300.0
@@ -63,7 +64,7 @@ enum status povray_render_file(struct povray *povray, const char *path, const ch
 
 /* Asks POV-Ray's trace() for the distance along each ray, in scene units: INFINITY on a miss. If out_mask is not NULL,
  * also asks which pixels hit something: out_mask[height][width] is 1 or 0. */
-enum status povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray rays[],
+enum status povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray *rays,
                        double out_distance[], unsigned char *out_mask) STATUS_MUST_CHECK;
 
 /* The CPU seconds of tracing the scene's picture, in white and without lights, not counting parsing; NAN if unknown. */
