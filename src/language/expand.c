@@ -180,7 +180,29 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
   return whole;
 }
 
-enum status objects_expand(struct language *language, const struct method *method, struct scene *scene)
+/* The name of a declared object; NULL if memory is short. */
+static const char *name_of(struct expansion *e, struct sharing *sharing)
+{
+  char *text = sharing->kept ? NULL : arena_alloc(e->scene->arena, sharing->name.length + 1, 1);
+  if (text) sharing->kept = memcpy(text, sharing->name.text, sharing->name.length);
+  return sharing->kept;
+}
+
+static bool list_parts(struct expansion *e, const struct node *all, struct language_parts *out)
+{
+  struct list parts = {.items = (void **)&out->at, .count = &out->count, .size = sizeof *out->at};
+  size_t first = 0;
+  for (const struct node *child = all->first; child; first += child->patch_count, child = child->next) {
+    const bool named = child->sharing != NULL;
+    struct language_part *part = append(e->scene->arena, &parts);
+    if (!part || (named && !name_of(e, child->sharing))) return false;
+    *part = (struct language_part){named ? child->sharing->kept : NULL, first};
+  }
+  return true;
+}
+
+enum status objects_expand(struct language *language, const struct method *method, struct scene *scene,
+                           struct language_parts *parts)
 {
   struct expansion e = {
     .language = language,
@@ -197,6 +219,8 @@ enum status objects_expand(struct language *language, const struct method *metho
   const struct inherited nothing = {&identity, NULL, method};
   uint32_t first;
   scene->patches = arena_alloc(scene->arena, all->patch_count, sizeof *scene->patches);
-  if (!scene->patches || !intern(&e, &e.methods, method, &first) || !expand(&e, all, &nothing)) return STATUS_LIMIT;
+  if (!scene->patches || !intern(&e, &e.methods, method, &first) || !expand(&e, all, &nothing) ||
+      (parts && !list_parts(&e, all, parts)))
+    return STATUS_LIMIT;
   return e.told ? STATUS_INPUT : STATUS_OK;
 }

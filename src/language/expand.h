@@ -3,12 +3,14 @@
 #ifndef PSCN_LANGUAGE_EXPAND_H
 #define PSCN_LANGUAGE_EXPAND_H
 
+#include "language/language.h"
 #include "language/objects.h"
 #include "scene/scene.h"
 
 /* Puts all patches of language->objects, with their textures and solvers, into the scene. `method` becomes the scene's
- * first. STATUS_INPUT after reporting that a point is too large; STATUS_LIMIT. */
-enum status objects_expand(struct language *language, const struct method *method,
-                           struct scene *scene) STATUS_MUST_CHECK;
+ * first. `parts`, if not NULL, becomes the list of the outermost objects. STATUS_INPUT after reporting that a point is
+ * too large; STATUS_LIMIT. */
+enum status objects_expand(struct language *language, const struct method *method, struct scene *scene,
+                           struct language_parts *parts) STATUS_MUST_CHECK;
 
 #endif

@@ -32,6 +32,7 @@ struct reading {
   struct camera_items camera;
   struct settings settings;
   struct transform_angles angles;
+  struct language_parts *parts; /* or NULL */
 };
 
 static enum status reading_create(struct reading *r, const struct language_settings *settings,
@@ -59,6 +60,7 @@ static enum status reading_create(struct reading *r, const struct language_setti
   camera_default(&r->camera);
   settings_default(&r->settings);
   r->sources.folders = settings->folders;
+  r->parts = settings->out_parts;
   if (!language->arena) return STATUS_LIMIT;
   const struct {
     const char *name;
@@ -137,7 +139,7 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
   memcpy(scene->ambient_light, settings->ambient_light, sizeof scene->ambient_light);
   enum status status = camera_fold(&r->language, &r->camera, &scene->camera) ? add_lights(settings, scene)
                                                                              : STATUS_INPUT;
-  if (status == STATUS_OK) status = objects_expand(&r->language, &settings->method, scene);
+  if (status == STATUS_OK) status = objects_expand(&r->language, &settings->method, scene, r->parts);
   if (status == STATUS_OK && !sources_list(&r->language, scene)) status = STATUS_LIMIT;
   if (status == STATUS_OK) *out_scene = scene;
   else scene_destroy(scene);

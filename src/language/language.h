@@ -23,6 +23,17 @@ struct language_number {
 /* The size of a picture unless another is given. */
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600 };
 
+/* An object of the text that is in no other: the patches from `first_patch` on, up to the next one's. Those without
+ * patches are not listed. The list is in the scene's arena. */
+struct language_part {
+  const char *name; /* of the declared object that it is; NULL if it is none */
+  size_t first_patch;
+};
+struct language_parts {
+  struct language_part *at;
+  size_t count;
+};
+
 struct language_settings {
   int image_width, image_height;      /* pixels, >= 1: the values of image_width and image_height in the scene */
   const char *solver_text;            /* --solver TEXT: overrides every solver statement of the scene; or NULL */
@@ -33,8 +44,9 @@ struct language_settings {
   const char *const *folders; /* where to look for includes besides the includer's folder, ended by NULL; or NULL */
   const struct language_number *numbers; /* number_count names declared beforehand */
   size_t number_count;
-  size_t max_work;   /* tokens that loops and macros may read; or 0: a second's work */
-  bool untrusted;    /* --untrusted: see below */
+  size_t max_work;                  /* tokens that loops and macros may read; or 0: a second's work */
+  bool untrusted;                   /* --untrusted: see below */
+  struct language_parts *out_parts; /* where they are listed; or NULL */
   size_t max_memory; /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
 };
 

@@ -195,10 +195,18 @@ void copy_object(struct language *language, const struct node *object)
   take_object(language, language->objects->whole, object);
 }
 
+/* Copies the name, whose text may be released before the scene is made. */
+static void take_name(struct language *language, const struct value *value)
+{
+  struct name name = sources_name(language, value->place);
+  name.text = language_keep(language, name.text, name.length);
+  value->object->sharing->name = name;
+}
+
 void copy_named(struct language *language, const struct value *value)
 {
   if (value->kind == VALUE_OBJECT) {
-    value->object->sharing->uses++;
+    if (value->object->sharing->uses++ == 0) take_name(language, value);
     language->objects->copies++;
     take_object(language, value->place, value->object);
   } else {

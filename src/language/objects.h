@@ -13,8 +13,10 @@ enum { PATCH_TYPE, PATCH_FLATNESS, PATCH_U_STEPS, PATCH_V_STEPS, PATCH_SETTINGS 
 
 /* What the copies of a declared object share. */
 struct sharing {
-  size_t uses;     /* how often it is named */
-  uint32_t object; /* its index in scene.objects plus 1, once it is there */
+  size_t uses;      /* how often it is named */
+  uint32_t object;  /* its index in scene.objects plus 1, once it is there */
+  struct name name; /* where it is first used */
+  const char *kept; /* the name's text in the scene, once it is there */
 };
 
 /* The numbers of one patch, shared by its copies. */

@@ -13,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "base/memory.h"
 #include "intersect/intersect.h"
+#include "language/language.h"
 #include "library/pscn.h"
 #include "scene/scene.h"
 
@@ -32,6 +33,7 @@ struct pscn_scene {
   char *text;           /* all messages together, or NULL if there was no memory for that */
   struct message spare; /* stands for messages that there was no memory for */
   struct scene *scene;
+  struct language_parts parts;     /* of its text, if it is from one */
   struct intersector *intersector; /* NULL if the scene was not built */
 };
 

@@ -20,15 +20,23 @@
  * flags. Functions return a status. Messages, which say what was wrong and where, are kept with the scene.
  *
  * What an answer promises: of all points where the ray meets the patches, both exactly as given in doubles, a hit is
- * the nearest with t_min < t < t_max; a miss means that there is none. (Points no farther apart than 2^-106 of their
- * patches, or 2^-105 of t, count as one t; the hit is then on the patch that comes first.) `certain` is 1 where this is
- * proven. It is 0, "grazing", where a change of the input within the rounding of its last digits could turn the answer:
- * at a tangency, at the border of an open surface, or if the ray lies in a surface. A hit is then reported wherever one
- * cannot be excluded, except that what may lie on either side of t_min or t_max is left out.
+ * the nearest with t_min < t < t_max; a miss means that there is none. `certain` is 1 where this is proven. It is 0,
+ * "grazing", where exact arithmetic within the ray's limit of work does not decide: at a tangency, or if the ray lies in
+ * a surface. A hit is then reported wherever one cannot be excluded, except that what may lie on either side of t_min
+ * or t_max is left out.
  *
- * A corner of a patch, or a border that is one point, is a given point. A ray that meets it exactly hits it, and the
- * nearest hit is certain even if the surface is open there, but the answer of pscn_all is then grazing. Both are
- * grazing where the ray touches a patch at such a point.
+ * Points no farther apart than 2^-106 of their patches, or 2^-105 of t, count as one t, and the hit is on the patch that
+ * comes first. So a ray that crosses a patch nearer than some 1e-32 of its size to the border with another one may be
+ * reported on that one, with a parameter of exactly 0 or 1.
+ *
+ * A ray that meets a border or corner of a patch exactly hits it. The nearest hit is certain there even if the surface
+ * is open. The answer of pscn_all is then grazing, because there the ray neither crosses the surface nor passes it by.
+ * Both are grazing if the ray touches a patch at such a point.
+ *
+ * The point of a certain hit, and t, are as right as their numbers allow: t is off by no more than four times what one
+ * rounding of each number of the ray and the patch can change it. If the ray crosses the surface, these are the last
+ * places of t. Beside a cusp or a tangency they are more: where the ray passes at a distance e, in sizes of the patch,
+ * up to some 2^-53 / sqrt(e) of t.
  *
  * The work for one ray is limited. If it runs out, the answer is grazing: the nearest hit known by then, or a miss;
  * pscn_occluded reports a hit. (Of patches whose solver says `polish off`, nothing is proven. Of roots no farther apart
@@ -122,16 +130,19 @@ struct pscn_options {
   size_t number_count;
   int image_width, image_height; /* the values of these words in the text; 0: 800 and 600 */
   struct pscn_memory memory;
-  int32_t
-    untrusted; /* 1: the text is a stranger's. It includes only files in its folder (of a text: that in its name, if
-                        any) and in `folders`, or below them, wherever links lead. It may not say `solver`, and has at
-                        most 64 lights. If max_memory is 0, it is 256 MB */
-  int32_t reserved; /* 0 */
+  /* 1: the text is a stranger's. It includes only files in its folder (of a text: that in its name, if any) and in
+   * `folders`, or below them, wherever links lead. It may not say `solver`, and has at most 64 lights. Its #debug and
+   * the like are messages, a thousand at most. If max_memory is 0, it is 256 MB. (Reading ends after max_work, and each
+   * ray after some 10 ms, in any case. How many rays are traced is the caller's affair.) */
+  int32_t untrusted;
+  int32_t lenient; /* 1: what pscn does not support of POV-Ray's language is left out, with warnings */
+  double clock;    /* the value of that word in the text */
+  size_t max_work; /* limit on the tokens that loops and macros of the text may read; 0: 20 million, about a second */
 };
 
-#define PSCN_OPTIONS                                                                 \
-  {                                                                                  \
-    sizeof(struct pscn_options), NULL, 0, 0, NULL, NULL, 0, 0, 0, {NULL, NULL}, 0, 0 \
+#define PSCN_OPTIONS                                                                       \
+  {                                                                                        \
+    sizeof(struct pscn_options), NULL, 0, 0, NULL, NULL, 0, 0, 0, {NULL, NULL}, 0, 0, 0, 0 \
   }
 
 /* Each function builds a scene and writes it to *out, even when it fails: such a scene answers no rays, but holds the
@@ -153,6 +164,11 @@ PSCN_API enum pscn_status pscn_scene_from_points(const double *points, size_t co
                                                  ptrdiff_t point_stride, const struct pscn_options *options,
                                                  struct pscn_scene **out);
 
+/* The same for floats; each becomes the double of the same value. */
+PSCN_API enum pscn_status pscn_scene_from_float_points(const float *points, size_t count, ptrdiff_t patch_stride,
+                                                       ptrdiff_t point_stride, const struct pscn_options *options,
+                                                       struct pscn_scene **out);
+
 /* Patches as sixteen indices each, in the order of P, of vertices, three doubles each. Patches that have the indices of
  * an edge in common share it. If there are instances, matrices M[4][3], all patches stand in the scene once for each of
  * them, points p moved to p[0] M[0] + p[1] M[1] + p[2] M[2] + M[3]; patch n of instance m has the number m count + n.
@@ -160,6 +176,10 @@ PSCN_API enum pscn_status pscn_scene_from_points(const double *points, size_t co
 PSCN_API enum pscn_status pscn_scene_from_indexed(const double *vertices, size_t vertex_count, const uint32_t *patches,
                                                   size_t count, const double *instances, size_t instance_count,
                                                   const struct pscn_options *options, struct pscn_scene **out);
+PSCN_API enum pscn_status pscn_scene_from_float_indexed(const float *vertices, size_t vertex_count,
+                                                        const uint32_t *patches, size_t count, const double *instances,
+                                                        size_t instance_count, const struct pscn_options *options,
+                                                        struct pscn_scene **out);
 
 /* Only when no call uses the scene any more. NULL is allowed. */
 PSCN_API void pscn_scene_free(struct pscn_scene *scene);
@@ -184,6 +204,16 @@ PSCN_API enum pscn_status pscn_message(const struct pscn_scene *scene, size_t nu
  * transforms applied. If no patch has that number, it returns PSCN_USAGE and writes zeros. */
 PSCN_API size_t pscn_patch_count(const struct pscn_scene *scene);
 PSCN_API enum pscn_status pscn_patch(const struct pscn_scene *scene, size_t number, double out[4][4][3]);
+
+/* The object of the text that a patch belongs to: of nested objects the outermost, such as `object { Lid scale 2 }` or a
+ * union. `number` counts those that have patches, from 0. `name` is "Lid" here, and "" for an object that is written out
+ * where it stands; it lives as long as the scene. If no patch has that number, or the scene is not from a text, the
+ * call returns PSCN_USAGE and writes zeros, and "". */
+struct pscn_object {
+  const char *name;
+  size_t number, first_patch, patch_count;
+};
+PSCN_API enum pscn_status pscn_object(const struct pscn_scene *scene, size_t patch, struct pscn_object *out);
 
 /* The least and the greatest coordinates of a patch's control points, or of all patches': the surface is between them.
  * If no patch has that number, or there is none, it returns PSCN_USAGE and writes zeros. */

@@ -230,31 +230,33 @@ static enum pscn_status ask(const struct pscn_scene *scene, const struct asked *
   return call->failed ? PSCN_INPUT : PSCN_OK;
 }
 
+static enum pscn_status ask_each(const struct pscn_scene *scene, const struct asked *asked, size_t count,
+                                 const struct pscn_ray *rays, ptrdiff_t ray_stride, void *answers, ptrdiff_t stride)
+{
+  struct call call = {
+    .rays = (const char *)rays, .answers = answers, .ray_stride = ray_stride, .answer_stride = stride};
+  return ask(scene, asked, count, &call);
+}
+
 enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                               ptrdiff_t ray_stride, struct pscn_hit *hits, ptrdiff_t hit_stride)
 {
   static const struct asked asked = {answer_nearest, write_nearest, false};
-  struct call call = {
-    .rays = (const char *)rays, .answers = (char *)hits, .ray_stride = ray_stride, .answer_stride = hit_stride};
-  return ask(scene, &asked, count, &call);
+  return ask_each(scene, &asked, count, rays, ray_stride, hits, hit_stride);
 }
 
 enum pscn_status pscn_nearest_answer(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                      ptrdiff_t ray_stride, struct pscn_answer *answers, ptrdiff_t answer_stride)
 {
   static const struct asked asked = {answer_short, write_short, false};
-  struct call call = {
-    .rays = (const char *)rays, .answers = (char *)answers, .ray_stride = ray_stride, .answer_stride = answer_stride};
-  return ask(scene, &asked, count, &call);
+  return ask_each(scene, &asked, count, rays, ray_stride, answers, answer_stride);
 }
 
 enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                ptrdiff_t ray_stride, uint8_t *verdicts, ptrdiff_t verdict_stride)
 {
   static const struct asked asked = {answer_occluded, write_occluded, false};
-  struct call call = {
-    .rays = (const char *)rays, .answers = (char *)verdicts, .ray_stride = ray_stride, .answer_stride = verdict_stride};
-  return ask(scene, &asked, count, &call);
+  return ask_each(scene, &asked, count, rays, ray_stride, verdicts, verdict_stride);
 }
 
 enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,

@@ -129,7 +129,7 @@ static bool take_options(const struct pscn_options *options, struct pscn_options
   for (size_t k = known; k < options->size; k++)
     if (((const unsigned char *)options)[k]) return false;
   if (out->untrusted && out->max_memory == 0) out->max_memory = MEMORY_OF_STRANGER;
-  return out->reserved == 0 && (out->untrusted == 0 || out->untrusted == 1);
+  return (out->untrusted == 0 || out->untrusted == 1) && (out->lenient == 0 || out->lenient == 1);
 }
 
 static enum pscn_status language_options(struct pscn_scene *scene, const struct pscn_options *options,
@@ -150,6 +150,8 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
     if (!number_in_range(&numbers[k].value)) return wrong(scene, "a declared number is no number up to 1e100");
   }
   if (isnan(options->tolerance)) return wrong(scene, "the tolerance is no number");
+  double clock = options->clock;
+  if (!number_in_range(&clock)) return wrong(scene, "the clock is no number up to 1e100");
   *out = (struct language_settings){.image_width = options->image_width ? options->image_width : DEFAULT_WIDTH,
                                     .image_height = options->image_height ? options->image_height : DEFAULT_HEIGHT,
                                     .solver_text = options->solver,
@@ -157,14 +159,19 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
                                     .folders = options->folders,
                                     .numbers = numbers,
                                     .number_count = options->number_count,
+                                    .out_parts = &scene->parts,
                                     .untrusted = options->untrusted != 0,
+                                    .lenient = options->lenient != 0,
+                                    .clock = clock,
+                                    .max_work = options->max_work,
                                     .max_memory = options->max_memory};
   return PSCN_OK;
 }
 
 /* The control points that a scene is made from: with strides, or by indices, then `count` patches for each instance. */
 struct points {
-  const double *first;
+  const void *first; /* doubles, or floats */
+  bool floats;
   size_t count;
   ptrdiff_t patch_stride, point_stride;
   const uint32_t *index; /* or NULL */
@@ -177,13 +184,16 @@ struct points {
 static bool take_point(const struct points *points, size_t n, int k, double out[3])
 {
   const size_t patch = n % points->count;
-  const char *at = (const char *)points->first;
+  const char *at = points->first;
+  const size_t size = points->floats ? sizeof(float[3]) : sizeof(double[3]);
   if (!points->index) at += (ptrdiff_t)patch * points->patch_stride + k * points->point_stride;
   else if (points->index[16 * patch + (size_t)k] < points->vertex_count)
-    at += sizeof(double[3]) * points->index[16 * patch + (size_t)k];
+    at += size * points->index[16 * patch + (size_t)k];
   else return false;
   double p[3];
-  memcpy(p, at, sizeof p);
+  float f[3];
+  memcpy(points->floats ? (void *)f : (void *)p, at, size);
+  for (int c = 0; c < 3 && points->floats; c++) p[c] = (double)f[c];
   const double *M = points->instances ? points->instances + 12 * (n / points->count) : NULL;
   for (int c = 0; c < 3; c++) out[c] = M ? p[0] * M[c] + p[1] * M[3 + c] + p[2] * M[6 + c] + M[9 + c] : p[c];
   bool in_range = true;
@@ -287,27 +297,51 @@ enum pscn_status pscn_scene_from_text(const char *name, const char *text, size_t
   return create(&(struct origin){text || length == 0 ? name : NULL, text ? text : "", length, NULL}, options, out);
 }
 
+static enum pscn_status from_strided(const void *first, bool floats, size_t count, ptrdiff_t patch_stride,
+                                     ptrdiff_t point_stride, const struct pscn_options *options,
+                                     struct pscn_scene **out)
+{
+  const struct points all = {
+    .first = first, .floats = floats, .count = count, .patch_stride = patch_stride, .point_stride = point_stride};
+  return create(&(struct origin){first || count == 0 ? "<points>" : NULL, "", 0, &all}, options, out);
+}
+
 enum pscn_status pscn_scene_from_points(const double *points, size_t count, ptrdiff_t patch_stride,
                                         ptrdiff_t point_stride, const struct pscn_options *options,
                                         struct pscn_scene **out)
 {
-  const struct points all = {
-    .first = points, .count = count, .patch_stride = patch_stride, .point_stride = point_stride};
-  return create(&(struct origin){points || count == 0 ? "<points>" : NULL, "", 0, &all}, options, out);
+  return from_strided(points, false, count, patch_stride, point_stride, options, out);
+}
+
+enum pscn_status pscn_scene_from_float_points(const float *points, size_t count, ptrdiff_t patch_stride,
+                                              ptrdiff_t point_stride, const struct pscn_options *options,
+                                              struct pscn_scene **out)
+{
+  return from_strided(points, true, count, patch_stride, point_stride, options, out);
+}
+
+static enum pscn_status from_indexed(const struct points *all, const struct pscn_options *options,
+                                     struct pscn_scene **out)
+{
+  const bool given = all->count == 0 || (all->first && all->index);
+  const bool placed = all->instances || all->instance_count == 0;
+  return create(&(struct origin){given && placed ? "<points>" : NULL, "", 0, all}, options, out);
 }
 
 enum pscn_status pscn_scene_from_indexed(const double *vertices, size_t vertex_count, const uint32_t *patches,
                                          size_t count, const double *instances, size_t instance_count,
                                          const struct pscn_options *options, struct pscn_scene **out)
 {
-  const struct points all = {.first = vertices,
-                             .count = count,
-                             .index = patches,
-                             .vertex_count = vertex_count,
-                             .instances = instances,
-                             .instance_count = instance_count};
-  const bool given = count == 0 || (vertices && patches), placed = instances || instance_count == 0;
-  return create(&(struct origin){given && placed ? "<points>" : NULL, "", 0, &all}, options, out);
+  const struct points all = {vertices, false, count, 0, 0, patches, vertex_count, instances, instance_count};
+  return from_indexed(&all, options, out);
+}
+
+enum pscn_status pscn_scene_from_float_indexed(const float *vertices, size_t vertex_count, const uint32_t *patches,
+                                               size_t count, const double *instances, size_t instance_count,
+                                               const struct pscn_options *options, struct pscn_scene **out)
+{
+  const struct points all = {vertices, true, count, 0, 0, patches, vertex_count, instances, instance_count};
+  return from_indexed(&all, options, out);
 }
 
 void pscn_scene_free(struct pscn_scene *scene)
@@ -350,6 +384,24 @@ void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_camera *out)
     out->right[k] = camera->right[k];
     out->up[k] = camera->up[k];
   }
+}
+
+enum pscn_status pscn_object(const struct pscn_scene *scene, size_t patch, struct pscn_object *out)
+{
+  if (!out) return PSCN_USAGE;
+  *out = (struct pscn_object){.name = ""};
+  if (patch >= pscn_patch_count(scene) || scene->parts.count == 0) return PSCN_USAGE;
+  const struct language_part *at = scene->parts.at;
+  size_t number = 0, end = scene->parts.count; /* the last one that begins at or before the patch */
+  while (end - number > 1) {
+    const size_t middle = number + (end - number) / 2;
+    if (at[middle].first_patch <= patch) number = middle;
+    else end = middle;
+  }
+  const size_t first = at[number].first_patch;
+  const size_t after = end < scene->parts.count ? at[end].first_patch : scene->scene->patch_count;
+  *out = (struct pscn_object){at[number].name ? at[number].name : "", number, first, after - first};
+  return PSCN_OK;
 }
 
 enum pscn_status pscn_bounds(const struct pscn_scene *scene, size_t number, double out[2][3])

@@ -15,12 +15,17 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Scene", "Hits", "Counts", "Surface", "Error", "version"]
+if TYPE_CHECKING:
+    from typing import Unpack
+
+__all__ = ["Scene", "Options", "Hits", "Counts", "Surface", "Part", "Error", "version"]
 
 # The structures of pscn.h.
 _RAY = np.dtype([("origin", "3f8"), ("direction", "3f8"), ("t_min", "f8"), ("t_max", "f8")])
@@ -31,7 +36,9 @@ _COUNTS = np.dtype([("count", "u8"), ("verdict", "i4"), ("certain", "i4")])
 _PLACE = np.dtype([("u", "f8"), ("v", "f8"), ("patch", "u4"), ("reserved", "u4")])
 _SURFACE = np.dtype([("point", "3f8"), ("du", "3f8"), ("dv", "3f8"), ("normal", "3f8")])
 _OPTIONS = np.dtype([("size", "u8"), ("solver", "u8"), ("tolerance", "f8"), ("max_memory", "u8"), ("folders", "u8"),
-                     ("numbers", "u8"), ("number_count", "u8"), ("image", "2i4"), ("memory", "2u8")])
+                     ("numbers", "u8"), ("number_count", "u8"), ("image_size", "2i4"), ("memory", "2u8"),
+                     ("untrusted", "i4"), ("lenient", "i4"), ("clock", "f8"), ("max_work", "u8")])
+_PART = np.dtype([("name", "u8"), ("number", "u8"), ("first", "u8"), ("count", "u8")])
 _INPUT, _LIMIT, _MISS, _ALL = 3, 5, 0, ctypes.c_size_t(-1).value
 
 
@@ -41,6 +48,20 @@ class Error(ValueError):
     def __init__(self, text: str, status: int):
         super().__init__(text)
         self.status = status
+
+
+class Options(TypedDict, total=False):
+    """How a scene is built: keywords of Scene and its from_... methods. Defaults and units are those of pscn.h."""
+    solver: str  #: what may follow that word in a scene; replaces every solver statement
+    tolerance: float
+    max_memory: int  #: bytes that the scene may take
+    folders: Sequence[str | os.PathLike]  #: more folders to search for included files
+    numbers: Mapping[str, float]  #: declared before the text is read
+    image_size: tuple[int, int]  #: image_width and image_height in the text
+    untrusted: bool  #: the text is a stranger's
+    lenient: bool  #: what pscn does not support is left out, with warnings
+    clock: float
+    max_work: int  #: tokens that loops and macros may read
 
 
 class Hits:
@@ -68,6 +89,13 @@ class Counts:
 
 
 @dataclass
+class Part:
+    """An object of a text that stands in no other: its patches, and its name if it is a declared one, or ""."""
+    name: str
+    patches: range
+
+
+@dataclass
 class Surface:
     """Points of patches, derivatives and unit normals; a normal is 0 if the patch has none."""
     point: NDArray[np.float64]
@@ -88,7 +116,7 @@ def _load() -> ctypes.CDLL:
             ("scene_from_points", None, [p, n, stride, stride, p, p]),
             ("scene_from_indexed", None, [p, n, p, n, p, n, p, p]), ("scene_free", None, [p]),
             ("scene_camera", None, [p, p]), ("patch_count", n, [p]), ("patch", None, [p, n, p]),
-            ("bounds", None, [p, n, p]), ("surface", None, [p, n, p, stride, p, stride]),
+            ("bounds", None, [p, n, p]), ("object", None, [p, n, p]), ("surface", None, [p, n, p, stride, p, stride]),
             ("nearest", None, [p, n, p, stride, p, stride]), ("occluded", None, [p, n, p, stride, p, stride]),
             ("all", None, [p, n, p, stride, p, stride, p, stride, n])):
         function = getattr(library, "pscn_" + name)
@@ -139,39 +167,53 @@ def _flat(values, shape: tuple[int, ...], last: tuple[int, ...]) -> np.ndarray:
 
 class Scene:
     """A scene of patches: of control points nets[..., 4, 4, 3], along u and then along v; or see from_file, from_text
-    and from_indexed. `solver` is what may follow that word in a scene. Errors are raised with their places."""
+    and from_indexed. Errors are raised with their places."""
 
-    def __init__(self, nets: ArrayLike, *, solver: str | None = None):
+    def __init__(self, nets: ArrayLike, **options: Unpack[Options]):
         nets = _array(nets, np.float64, 4, 4, 3)
-        self._build("points", solver, nets.ctypes.data, nets.size // 48, 384, 24)
+        self._build("points", options, nets.ctypes.data, nets.size // 48, 384, 24)
 
     @classmethod
-    def from_file(cls, path: str | os.PathLike, *, solver: str | None = None) -> Scene:
+    def from_file(cls, path: str | os.PathLike, **options: Unpack[Options]) -> Scene:
         """A scene file in the language of pscn(5)."""
-        return cls.__new__(cls)._build("file", solver, os.fsencode(path))
+        return cls.__new__(cls)._build("file", options, os.fsencode(path))
 
     @classmethod
-    def from_text(cls, text: str, *, name: str = "text", solver: str | None = None) -> Scene:
+    def from_text(cls, text: str, *, name: str = "text", **options: Unpack[Options]) -> Scene:
         """The text of such a file; `name` stands for it in messages."""
         data = text.encode()
-        return cls.__new__(cls)._build("text", solver, os.fsencode(name), data, len(data))
+        return cls.__new__(cls)._build("text", options, os.fsencode(name), data, len(data))
 
     @classmethod
     def from_indexed(cls, vertices: ArrayLike, patches: ArrayLike, *, instances: ArrayLike | None = None,
-                     solver: str | None = None) -> Scene:
+                     **options: Unpack[Options]) -> Scene:
         """Patches as indices [..., 16] of vertices [n, 3]; all of them once for each matrix of instances [m, 4, 3]."""
         vertices, patches = _array(vertices, np.float64, 3), _array(patches, np.uint32, 16)
         placed = _array(np.zeros((0, 4, 3)) if instances is None else instances, np.float64, 4, 3)
-        return cls.__new__(cls)._build("indexed", solver, vertices.ctypes.data, vertices.size // 3, patches.ctypes.data,
+        return cls.__new__(cls)._build("indexed", options, vertices.ctypes.data, vertices.size // 3, patches.ctypes.data,
                                        patches.size // 16, placed.ctypes.data if placed.size else None,
                                        placed.size // 12)
 
-    def _build(self, kind: str, solver: str | None, *arguments) -> Scene:
+    def _build(self, kind: str, options: Options, *arguments) -> Scene:
+        options = {name: value for name, value in options.items() if value is not None}
+        unknown = options.keys() - Options.__annotations__.keys()
+        if unknown:
+            raise TypeError(f"there is no option {min(unknown)!r}")
         self._handle = ctypes.c_void_p()
-        options, text = np.zeros((), _OPTIONS), ctypes.c_char_p(solver.encode() if solver else None)
-        options["size"], options["solver"] = _OPTIONS.itemsize, ctypes.cast(text, ctypes.c_void_p).value or 0
-        status = getattr(_library, "pscn_scene_from_" + kind)(*arguments, options.ctypes.data,
-                                                              ctypes.byref(self._handle))
+        given = np.zeros((), _OPTIONS)
+        given["size"] = _OPTIONS.itemsize
+        for name in ("tolerance", "max_memory", "image_size", "untrusted", "lenient", "clock", "max_work"):
+            given[name] = options.get(name, 0)
+        texts = {name: ctypes.create_string_buffer(name.encode()) for name in options.get("numbers", {})}
+        solver = ctypes.create_string_buffer(options.get("solver", "").encode())
+        numbers = np.array([(ctypes.addressof(texts[name]), value) for name, value in options.get("numbers", {}).items()],
+                           [("name", "u8"), ("value", "f8")])
+        paths = [os.fsencode(folder) for folder in options.get("folders", ())]
+        folders = (ctypes.c_char_p * (len(paths) + 1))(*paths, None)
+        given["solver"] = ctypes.addressof(solver) if "solver" in options else 0
+        given["folders"], given["numbers"] = ctypes.addressof(folders), numbers.ctypes.data
+        given["number_count"] = len(numbers)
+        status = getattr(_library, "pscn_scene_from_" + kind)(*arguments, given.ctypes.data, ctypes.byref(self._handle))
         #: warnings
         self.messages = _library.pscn_scene_messages(self._handle).decode()
         if status == _LIMIT:
@@ -192,6 +234,17 @@ class Scene:
         net = np.empty((4, 4, 3))
         _check(_library.pscn_patch(self._handle, number, net.ctypes.data))
         return net
+
+    @property
+    def parts(self) -> list[Part]:
+        """The objects of the scene's text, in its order; none if it is not from a text. hits.patch belongs to number
+        numpy.searchsorted([part.patches.start for part in scene.parts], hits.patch, "right") - 1."""
+        parts, part = [], np.zeros((), _PART)
+        while (first := int(part["first"] + part["count"])) < len(self):
+            if _library.pscn_object(self._handle, first, part.ctypes.data) != 0:
+                break
+            parts.append(Part(ctypes.string_at(int(part["name"])).decode(), range(first, first + int(part["count"]))))
+        return parts
 
     def bounds(self, patch: int | None = None) -> NDArray[np.float64]:
         """The least and the greatest coordinates [2, 3] of the control points of a patch, or of all."""

@@ -29,9 +29,8 @@ static struct pscn_ray ray_down(struct random *random)
 }
 
 /* The same answers as from the control points themselves, in full and in short; and a patch's point where it is hit. */
-static void test_indexed(void **state)
+TEST(test_indexed)
 {
-  (void)state;
   double vertices[VERTICES][3], nets[INSTANCES * PATCHES][16][3];
   static const double placed[INSTANCES][4][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}},
                                                  {{0, 2, 0}, {1, 0, 0}, {0, 0, 0.5}, {0, 0, -8}},
@@ -80,9 +79,34 @@ static void test_indexed(void **state)
   pscn_scene_free(scene);
 }
 
-static void test_wrong_arguments(void **state)
+/* Floats make the patches that doubles of the same values make. */
+TEST(test_floats)
 {
-  (void)state;
+  double vertices[VERTICES][3], nets[2][16][3], P[2][4][4][3];
+  float floats[VERTICES][3], apart[PATCHES * 16][4];
+  uint32_t patches[PATCHES][16];
+  struct pscn_scene *scene[2];
+  make_mesh(vertices, patches);
+  for (int n = 0; n < VERTICES * 3; n++) floats[n / 3][n % 3] = (float)vertices[n / 3][n % 3];
+  for (int n = 0; n < PATCHES * 16; n++) memcpy(apart[n], floats[patches[n / 16][n % 16]], sizeof floats[0]);
+  for (int n = 0; n < PATCHES * 48; n++) nets[n / 48][n / 3 % 16][n % 3] = (double)apart[n / 3][n % 3];
+  assert_int_equal(pscn_scene_from_float_indexed(floats[0], VERTICES, patches[0], PATCHES, NULL, 0, NULL, &scene[0]),
+                   PSCN_OK);
+  assert_int_equal(
+    pscn_scene_from_float_points(apart[0], PATCHES, 16 * sizeof apart[0], sizeof apart[0], NULL, &scene[1]), PSCN_OK);
+  for (int k = 0; k < 2; k++) {
+    struct pscn_object object;
+    for (size_t n = 0; n < PATCHES; n++) assert_int_equal(pscn_patch(scene[k], n, P[n]), PSCN_OK);
+    assert_memory_equal(P, nets, sizeof nets);
+    assert_int_equal(pscn_object(scene[k], 0, &object), PSCN_USAGE); /* not from a text */
+    pscn_scene_free(scene[k]);
+  }
+  assert_int_equal(pscn_scene_from_float_points(NULL, 1, 0, 0, NULL, &scene[0]), PSCN_USAGE);
+  pscn_scene_free(scene[0]);
+}
+
+TEST(test_wrong_arguments)
+{
   double vertices[VERTICES][3], box[2][3];
   uint32_t patches[PATCHES][16];
   struct pscn_scene *scene;
@@ -107,10 +131,4 @@ static void test_wrong_arguments(void **state)
   assert_int_equal(pscn_surface(scene, 2, places, sizeof *places, out, sizeof *out), PSCN_INPUT);
   assert_true(isnan(out[0].point[0]) && isnan(out[1].normal[2]));
   pscn_scene_free(scene);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_indexed), cmocka_unit_test(test_wrong_arguments)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,6 +59,15 @@ assert np.allclose(np.abs((surface.normal * hits.normal).sum(-1)), 1, atol=1e-12
 low, high = scene.bounds()
 assert (low <= nets.min((0, 1, 2))).all() and (scene.bounds(0) == [nets[0].min((0, 1)), nets[0].max((0, 1))]).all()
 
+# Options, and the objects of a text.
+options = dict(numbers={"Far": 1.5}, clock=0.25, image_size=(30, 20), lenient=True, folders=["."], solver=None)
+made = pscn.Scene.from_text('camera { location <Far, clock, image_width> look_at 0 } sphere { 0, 1 } #include "wedge.pscn"'
+                            " #declare Lid = object { bicubic_patch { type 0 " + " ".join(f"<{k % 4},{k // 4},0>" for k in range(16))
+                            + " } } object { Lid } union { object { Lid } object { Lid } }", **options)
+assert made.camera_rays(1, 1)[0].tolist() == [[[1.5, 0.25, 30]]] and "sphere" in made.messages
+assert [(part.name, len(part.patches)) for part in made.parts[-2:]] == [("Lid", 1), ("", 2)]
+assert made.parts[-1].patches.stop == len(made) and not pscn.Scene(nets).parts
+
 # Errors.
 def fails(kind, words, call, *arguments, **options):
     try:
@@ -71,6 +80,9 @@ fails(pscn.Error, "text:1:10: error: unknown word 'loaction'", pscn.Scene.from_t
 fails(pscn.Error, "is no number", pscn.Scene, np.full((1, 4, 4, 3), np.nan))
 fails(pscn.Error, "wrong", scene.nearest, [0, 0, 0], [0, 0, 0])
 fails(pscn.Error, "solver", pscn.Scene, nets, solver="nosuch")
+fails(pscn.Error, "untrusted", pscn.Scene.from_text, "global_settings { solver newton }", untrusted=True)
+fails(MemoryError, "memory", pscn.Scene, nets, max_memory=1000)
+fails(TypeError, "'tolerence'", pscn.Scene, nets, tolerence=1e-3)
 fails(ValueError, "(4, 4, 3)", pscn.Scene, [1.0])
 fails(pscn.Error, "argument", scene.patch, len(scene))
 END

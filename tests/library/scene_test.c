@@ -117,6 +117,9 @@ TEST(test_arguments)
     {{.size = sizeof(struct pscn_options), .solver = "abert"}, "did you mean 'aberth'?"},
     {{.size = sizeof(struct pscn_options), .tolerance = 7}, "the tolerance must be a number from"},
     {{.size = sizeof(struct pscn_options), .tolerance = NAN}, "the tolerance is no number"},
+    {{.size = sizeof(struct pscn_options), .clock = INFINITY}, "the clock is no number"},
+    {{.size = sizeof(struct pscn_options), .untrusted = 2}, "not of this version"},
+    {{.size = sizeof(struct pscn_options), .lenient = -1}, "not of this version"},
     {{.size = sizeof(struct pscn_options), .image_width = -1}, "negative"},
     {{.size = sizeof(struct pscn_options), .image_height = -1}, "negative"},
     {{.size = sizeof(struct pscn_options), .number_count = 1}, "numbers is NULL"},
@@ -194,6 +197,18 @@ TEST(test_options)
   pscn_scene_free(scene);
 
   options = (struct pscn_options)PSCN_OPTIONS;
+  options.clock = 0.25, options.lenient = 1, options.max_work = 100;
+  static const char loops[] = "camera { location <clock, 0, 0> look_at z } sphere { 0, 1 } #while (1) #end";
+  assert_int_equal(from_text(loops, &options, &scene), PSCN_LIMIT);
+  assert_non_null(strstr(pscn_scene_messages(scene), "loop"));
+  pscn_scene_free(scene);
+  assert_int_equal(pscn_scene_from_text("", loops, strcspn(loops, "#"), &options, &scene), PSCN_OK);
+  pscn_scene_camera(scene, &camera);
+  assert_true(camera.location[0] == 0.25);
+  assert_non_null(strstr(pscn_scene_messages(scene), "warning"));
+  pscn_scene_free(scene);
+
+  options = (struct pscn_options)PSCN_OPTIONS;
   options.max_memory = 1000;
   assert_int_equal(from_text(PATCH, &options, &scene), PSCN_LIMIT);
   assert_int_equal(pscn_message_count(scene), 1);
@@ -204,6 +219,31 @@ TEST(test_options)
   assert_int_equal(
     pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, &options, &scene), PSCN_LIMIT);
   assert_non_null(strstr(pscn_scene_messages(scene), "memory"));
+  pscn_scene_free(scene);
+}
+
+/* The outermost objects of a text that have patches, by the patches' numbers. */
+TEST(test_objects)
+{
+  static const char text[] = "#declare Lid = bicubic_patch { type 0 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1>\n"
+                             "<2,1,1> <3,1,0> <0,2,0> <1,2,1> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0> }\n"
+                             "#declare Pot = union { object { Lid } object { Lid translate x } }\n"
+                             "union { } object { Pot } union { object { Lid } } object { Lid } object { Pot scale 2 }";
+  static const struct pscn_object expected[] = {{"Pot", 0, 0, 2}, {"", 1, 2, 1}, {"Lid", 2, 3, 1}, {"Pot", 3, 4, 2}};
+  static const size_t part_of[] = {0, 0, 1, 2, 3, 3};
+  struct pscn_scene *scene;
+  struct pscn_object object;
+  if (from_text(text, NULL, &scene) != PSCN_OK) fail_msg("%s", pscn_scene_messages(scene));
+  for (size_t n = 0; n < 6; n++) {
+    const struct pscn_object *meant = &expected[part_of[n]];
+    assert_int_equal(pscn_object(scene, n, &object), PSCN_OK);
+    assert_string_equal(object.name, meant->name);
+    assert_true(object.number == meant->number && object.first_patch == meant->first_patch &&
+                object.patch_count == meant->patch_count);
+  }
+  assert_int_equal(pscn_object(scene, 6, &object), PSCN_USAGE);
+  assert_true(object.name[0] == 0 && object.patch_count == 0);
+  assert_int_equal(pscn_object(scene, 0, NULL), PSCN_USAGE);
   pscn_scene_free(scene);
 }
 
