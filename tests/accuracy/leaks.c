@@ -192,17 +192,15 @@ static size_t leaks_of(const struct method *options, size_t wanted, uint64_t see
   return leaks.leaks;
 }
 
-static void test_default(void **state)
+TEST(test_default)
 {
-  (void)state;
   struct method options;
   method_default(solver_at(0), &options);
   assert_int_equal(leaks_of(&options, effort_count(FULL_RAYS, 4000), 401), 0);
 }
 
-static void test_other_solvers(void **state)
+TEST(test_other_solvers)
 {
-  (void)state;
   size_t leaks = 0;
   for (size_t n = 1; n < solver_count(); n++) {
     struct method options;
@@ -213,9 +211,8 @@ static void test_other_solvers(void **state)
 }
 
 /* Whole patches, and numbers of leaves other than the default's. */
-static void test_splits(void **state)
+TEST(test_splits)
 {
-  (void)state;
   static const int splits[] = {1, 2, 3, 16};
   size_t leaks = 0;
   for (size_t n = 0; n < sizeof splits / sizeof splits[0]; n++) {
@@ -229,9 +226,8 @@ static void test_splits(void **state)
 
 /* Rays from a hit inside the ball to another point of it: the chord ends there and nowhere before. Outwards there is
  * nothing. The ball of cubics is convex except for 3e-4 of its radius, hence the least angle. */
-static void test_leave(void **state)
+TEST(test_leave)
 {
-  (void)state;
   const double least_cosine = 0.1, least_chord = 0.1;
   size_t wanted = effort_count(FULL_RAYS / 10, 800), acne = 0, skipped = 0, outwards = 0;
   static const double scales[] = {1, 1e6, 1e-6, 1}, shifts[] = {0, 1e6, 1e-6, 1e4};
@@ -269,15 +265,4 @@ static void test_leave(void **state)
   }
   printf("seed 403: struck at the start %zu, slipped through %zu, struck outwards %zu\n", acne, skipped, outwards);
   assert_int_equal(acne + skipped + outwards, 0);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_default),
-    cmocka_unit_test(test_other_solvers),
-    cmocka_unit_test(test_splits),
-    cmocka_unit_test(test_leave),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Answers stay the same if the scene is scaled, moved or cut differently, if the ray is given differently, and if
+/* Answers stay the same if the scene is scaled, turned or cut differently, if the ray is given differently, and if
  * another method finds the hit. */
 #include <math.h>
 #include <string.h>
@@ -13,25 +13,14 @@ enum { SEED = 20240511, SCENES = 2, RAYS = 64 };
  * which the ray meets the surface: some hundred units roundoff of the scene's size. */
 #define SAME_T 1e-13
 
-/* Whether two answers to rays of the same geometry agree as far as both are certain; b's t is first multiplied by
- * `ratio`. Counts the certain hits. */
-static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b, double ratio, int *hits)
+/* Whether two answers to rays of the same geometry agree as far as both are certain. Counts the certain hits. */
+static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b, int *hits)
 {
   if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
   if (a->patch == HIT_NONE || b->patch == HIT_NONE) return a->patch == b->patch;
   const double length = vector_length(ray->direction), steep = fabs(vector_dot(ray->direction, a->normal)) / length;
   ++*hits;
-  return fabs(a->t - b->t * ratio) * steep <= SAME_T * fmax(a->t, 1 / length);
-}
-
-static double on_grain(double x) { return rint(x * 0x1p20) * 0x1p-20; }
-
-/* A ray whose coordinates are multiples of 2^-20. */
-static struct ray grain_ray(struct random *random, world_net *nets, size_t count, int n)
-{
-  struct ray ray = world_ray(random, nets, count, n % RAY_KINDS);
-  for (int k = 0; k < 3; k++) ray.origin[k] = on_grain(ray.origin[k]);
-  return ray;
+  return fabs(a->t - b->t) * steep <= SAME_T * fmax(a->t, 1 / length);
 }
 
 /* Answers that no traversal changes: they are the same to the last bit. Of a pole met exactly, any of the patches
@@ -123,43 +112,7 @@ TEST(turned_axes_answer_alike)
   assert_true(hits > WORLD_KINDS * 2 * RAYS / 4);
 }
 
-/* A million times as large, and a million away: exactly the same geometry in other numbers. */
-TEST(scaled_and_moved_scenes_answer_alike)
-{
-  struct random random = {SEED + 1};
-  static const struct {
-    double factor, offset;
-  } changes[] = {{1e6, 0}, {1, 1e6}, {1, -12345678}, {1024, 3e7}};
-  world_net nets[WORLD_MAX], other[WORLD_MAX];
-  int wrong = 0, hits = 0;
-  for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    if (kind == WORLD_LOW) continue; /* its coordinates use all bits */
-    for (size_t c = 0; c < sizeof changes / sizeof *changes; c++) {
-      struct world a, b;
-      const size_t count = world_fill((enum world_kind)kind, &random, nets);
-      for (size_t p = 0; p < count; p++)
-        for (int n = 0; n < 48; n++) nets[p][n / 12][n / 3 % 4][n % 3] = on_grain(nets[p][n / 12][n / 3 % 4][n % 3]);
-      for (size_t p = 0; p < count; p++) world_scale_net(nets[p], changes[c].factor, changes[c].offset, other[p]);
-      world_open(&a, nets, count, NULL);
-      world_open(&b, other, count, NULL);
-      for (int n = 0; n < RAYS; n++) {
-        struct ray ray = grain_ray(&random, nets, count, n), changed = ray;
-        for (int k = 0; k < 3; k++) changed.origin[k] = ray.origin[k] * changes[c].factor + changes[c].offset;
-        const struct hit want = world_closest(&a, &ray), got = world_closest(&b, &changed);
-        if (n % RAY_KINDS == 5) continue; /* from the surface: rounding decides there whether t = 0 counts */
-        if (!agree(&ray, &want, &got, 1 / changes[c].factor, &hits) && wrong++ < 5)
-          world_print_case("moved", kind, &ray, &want, &got);
-      }
-      world_close(&a);
-      world_close(&b);
-    }
-  }
-  assert_int_equal(wrong, 0);
-  assert_true(hits > (WORLD_KINDS - 1) * 4 * RAYS / 4);
-}
-
-/* Directions scaled by powers of two answer exactly alike, by other factors within a rounding; so do the shortest
- * and longest doubles. */
+/* Directions scaled by powers of two answer exactly alike. */
 TEST(the_length_of_the_direction_does_not_matter)
 {
   struct random random = {SEED + 2};
@@ -193,30 +146,6 @@ TEST(the_length_of_the_direction_does_not_matter)
   assert_true(hits > WORLD_KINDS * RAYS / 4);
 }
 
-TEST(odd_lengths)
-{
-  struct random random = {SEED + 3};
-  world_net nets[WORLD_MAX];
-  struct world world;
-  const size_t count = world_fill(WORLD_GRID, &random, nets);
-  world_open(&world, nets, count, NULL);
-  static const double lengths[] = {1e-300, 1e300, 5e-324, 3e-310, 1.7e308, 1e-20, 1e20};
-  int hits = 0;
-  for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++) {
-    for (int n = 0; n < 40; n++) {
-      const double x = random_between(&random, -0.9, 0.9), y = random_between(&random, -0.9, 0.9);
-      const struct ray ray = {{x, y, 4}, {0, 0, -lengths[l]}, 0, INFINITY}, unit = {{x, y, 4}, {0, 0, -1}, 0, INFINITY};
-      const struct hit want = world_closest(&world, &unit), got = world_closest(&world, &ray);
-      assert_true(want.patch == got.patch && want.patch != HIT_NONE);
-      assert_true(fabs(want.u - got.u) < 1e-14 && fabs(want.v - got.v) < 1e-14);
-      const double t = want.t / lengths[l]; /* may be subnormal or overflow; then only the point can be compared */
-      if (t > 1e-305 && t < 1e305) assert_true(fabs(got.t - t) <= 1e-15 * t), hits++;
-    }
-  }
-  assert_true(hits > 100);
-  world_close(&world);
-}
-
 /* The answer does not depend on how a patch is cut into leaves, nor on the method that finds the roots. */
 TEST(cuts_and_methods_answer_alike)
 {
@@ -246,7 +175,7 @@ TEST(cuts_and_methods_answer_alike)
       for (int n = 0; n < RAYS / 2; n++) {
         if (n % RAY_KINDS == 5) continue;
         const struct hit got = world_closest(&world, &rays[n]);
-        if (agree(&rays[n], &want[n], &got, 1, &hits)) continue;
+        if (agree(&rays[n], &want[n], &got, &hits)) continue;
         if (wrong++ < 8) {
           print_message("way %d (%s, split %d)\n", way, options.roots.solver->name, options.split);
           world_print_case("method", kind, &rays[n], &want[n], &got);

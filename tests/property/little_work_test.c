@@ -42,9 +42,8 @@ static void few_are_tried(const char *name, world_net nets[NETS], double few)
 
 /* If leaves were as thick as they bend, each would overlap many others. One leaf is met, and hardly another one may be
  * tried: leaves are gone to in the order in which the ray enters the slabs across them. */
-static void of_a_stack_few_are_tried(void **state)
+TEST(of_a_stack_few_are_tried)
 {
-  (void)state;
   world_net nets[NETS];
   for (size_t n = 0; n < NETS; n++) sheet(n, nets[n]);
   few_are_tried("a stack", nets, 1.1);
@@ -67,9 +66,8 @@ static void thread(struct random *random, size_t number, world_net net)
 }
 
 /* A leaf that is a line has no normal, but a box along it like any other. */
-static void of_lines_few_are_tried(void **state)
+TEST(of_lines_few_are_tried)
 {
-  (void)state;
   world_net nets[NETS];
   struct random random = {SEED};
   for (size_t n = 0; n < NETS; n++) thread(&random, n, nets[n]);
@@ -80,9 +78,8 @@ static void of_lines_few_are_tried(void **state)
 
 /* Patches that lie exactly on the first one take no work, however many there are: a ray has a small budget, and is certain
  * nevertheless. */
-static void of_twins_none_is_looked_at(void **state)
+TEST(of_twins_none_is_looked_at)
 {
-  (void)state;
   enum { BUDGET = 1000 }; /* what the first one needs is some 500 */
   world_net nets[NETS];
   struct random random = {SEED + 8};
@@ -111,9 +108,8 @@ static void of_twins_none_is_looked_at(void **state)
 
 /* A patch of equal points is one leaf, however finely it is to be cut: a ray that passes it, as nearly as boxes can
  * tell, meets what is behind, and has a small budget. */
-static void a_point_takes_little(void **state)
+TEST(a_point_takes_little)
 {
-  (void)state;
   world_net nets[2];
   struct method fine;
   struct world world;
@@ -153,9 +149,8 @@ static void open_planet(double radius, struct world *world)
 
 /* From next to a pole, a millionth of the ball away or less, no leaf is seen over whose whole the Jacobian is
  * regular. Little is left to the last resort nevertheless, from above and from the ground up. */
-static void next_to_poles_little_is_left_open(void **state)
+TEST(next_to_poles_little_is_left_open)
 {
-  (void)state;
   enum { PLANET_RAYS = 400 };
   static const double radii[] = {1e3, 1e4, 1e6};
   struct random random = {SEED + 1};
@@ -183,9 +178,8 @@ static void next_to_poles_little_is_left_open(void **state)
 
 /* Seen from nearby at a slant, the ground next to a pole bends so much that a leaf at the pole may have two roots.
  * Boxes that divide by the distance from the pole show that it has not. */
-static void next_to_poles_little_is_left_open_aslant(void **state)
+TEST(next_to_poles_little_is_left_open_aslant)
 {
-  (void)state;
   enum { ASLANT_RAYS = 400 };
   static const double radii[] = {1e2, 1e3, 1e4};
   struct random random = {SEED + 7};
@@ -207,9 +201,8 @@ static void next_to_poles_little_is_left_open_aslant(void **state)
 }
 
 /* A ray that meets a pole exactly is left to the last resort; no resultant of any leaf there is formed first. */
-static void of_what_meets_a_pole_no_resultant_is_formed(void **state)
+TEST(of_what_meets_a_pole_no_resultant_is_formed)
 {
-  (void)state;
   enum { POLE_RAYS = 200 };
   struct random random = {SEED + 4};
   struct world world;
@@ -231,9 +224,8 @@ static void of_what_meets_a_pole_no_resultant_is_formed(void **state)
 
 /* The camera is exactly on a pole, or in a corner of several patches. Its start is known to be no hit, and rays that
  * go up from the ball's pole leave nothing open. If the start belongs to the ray, it is a hit. */
-static void from_poles_nothing_is_left_open(void **state)
+TEST(from_poles_nothing_is_left_open)
 {
-  (void)state;
   enum { POINT_RAYS = 300, BELOW_AT_LEAST = POINT_RAYS / 10 };
   static const double points[][3] = {{0, 0, 0}, {1, -1, 0}, {0, -1, -1}}, middle[3] = {0, -1, 0};
   struct random random = {SEED + 2};
@@ -276,9 +268,8 @@ static void cone_quarter(size_t number, world_net net)
 
 /* No Jacobian is regular at the tip. Rays that start there and go up, or down inside the cone, are nevertheless
  * known to leave it. */
-static void from_a_tip_without_handles_nothing_is_left_open(void **state)
+TEST(from_a_tip_without_handles_nothing_is_left_open)
 {
-  (void)state;
   enum { TIP_RAYS = 300, LEAVE_AT_LEAST = TIP_RAYS / 2 };
   struct random random = {SEED + 3};
   world_net nets[4];
@@ -314,9 +305,8 @@ static void disc_quarter(size_t quarter, world_net net)
 }
 
 /* A ray in the plane of a flat patch meets curves, which begin on its borders. */
-static void of_what_lies_in_a_plane_little_is_looked_at(void **state)
+TEST(of_what_lies_in_a_plane_little_is_looked_at)
 {
-  (void)state;
   enum { PLANE_RAYS = 100, WORK_MOST = 3000 };
   struct random random = {SEED + 7};
   world_net nets[4];
@@ -346,9 +336,8 @@ static void of_what_lies_in_a_plane_little_is_looked_at(void **state)
 
 /* Near misses of many patches, for solvers that run to their limit of steps on each: a ray's budget ends after
  * a few. */
-static void solvers_are_charged(void **state)
+TEST(solvers_are_charged)
 {
-  (void)state;
   static const char *const names[] = {"aberth", "durand_kerner", "newton", "laguerre"};
   enum { MOST_SOLVED = 40 };
   static world_net nets[NETS];
@@ -372,20 +361,4 @@ static void solvers_are_charged(void **state)
     assert_in_range(solved, 1, MOST_SOLVED);
     world_close(&world);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
-                                     cmocka_unit_test(of_lines_few_are_tried),
-                                     cmocka_unit_test(of_twins_none_is_looked_at),
-                                     cmocka_unit_test(a_point_takes_little),
-                                     cmocka_unit_test(next_to_poles_little_is_left_open),
-                                     cmocka_unit_test(next_to_poles_little_is_left_open_aslant),
-                                     cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),
-                                     cmocka_unit_test(from_poles_nothing_is_left_open),
-                                     cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open),
-                                     cmocka_unit_test(of_what_lies_in_a_plane_little_is_looked_at),
-                                     cmocka_unit_test(solvers_are_charged)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* The answer to a ray does not depend on the rays beside it or the order of the patches. (accuracy-kernels
- * compares the instruction sets.) */
+ * compares the instruction sets, and any hit with the nearest.) */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -167,27 +167,6 @@ TEST(rays_through_a_crowded_corner_do_not_depend_on_companions)
   assert_true(certain > RAYS / 2);
 }
 
-/* Any hit is found exactly if a closest one is, alone and in packets. */
-static void occlusion(struct set_up *s)
-{
-  const struct hit *alone = answers_alone(s);
-  int wrong = 0;
-  for (size_t first = 0; first < STAGE_RAYS; first += PACKET_SIZE) {
-    bool occluded[PACKET_SIZE], by_itself;
-    tracer_occluded(s->world->tracer, PACKET_SIZE, &s->rays[first], occluded);
-    for (size_t n = 0; n < PACKET_SIZE; n++) {
-      tracer_occluded(s->world->tracer, 1, &s->rays[first + n], &by_itself);
-      const bool want = alone[first + n].patch != HIT_NONE;
-      if (occluded[n] == want && by_itself == want) continue;
-      if (wrong++ < 2)
-        world_print_case("occlusion", s->kind, &s->rays[first + n], &alone[first + n], &alone[first + n]);
-    }
-  }
-  assert_int_equal(wrong, 0);
-}
-
-TEST(occluded_is_whether_there_is_a_hit) { on_all_stages(SEED + 1, SCENES, occlusion); }
-
 /* Another order of the patches: the same t and, unless hits are tied, the same patch. */
 static void shuffled(struct set_up *s)
 {
@@ -217,3 +196,61 @@ static void shuffled(struct set_up *s)
 }
 
 TEST(answers_do_not_depend_on_the_order_of_patches) { on_all_stages(SEED + 3, SCENES, shuffled); }
+
+enum { SHEETS = 1200 };
+
+/* One of the four patches, bent and slanted, of a sheet; all have a corner at z on the z axis, and exact
+ * coordinates. Bit 0 of `quarter`: the patch at x > 0; bit 1: at y > 0. */
+static void quarter_sheet(unsigned quarter, double z, double slope, double bend, world_net out)
+{
+  for (int n = 0; n < 16; n++) {
+    const int x = quarter & 1 ? n / 4 : n / 4 - 3, y = quarter & 2 ? n % 4 : n % 4 - 3;
+    const double at[3] = {x, y, z + slope * x + bend * (x * x + y * y)};
+    memcpy(out[n / 4][n % 4], at, sizeof at);
+  }
+}
+
+/* A stack of sheets, in no order in the scene. Rays along its axis meet each sheet in a corner of all its patches,
+ * or where two of them meet, so far more places are left to the last resort than a ray has room for. The answer
+ * depends only on the first sheet: not on those behind it, nor on the rays beside it, nor on which box the walk
+ * reaches first. The sheets slant, so the boxes are long along the axis. */
+TEST(a_stack_is_met_on_its_first_sheet)
+{
+  enum { RAYS_ALONG = 6, APART = 90 };
+  static const double beside[] = {0, 1.5, -0.75};
+  static world_net nets[4 * SHEETS];
+  static double z[SHEETS];
+  static size_t place[4 * SHEETS];
+  struct random random = {SEED + 7};
+  struct world world;
+  for (size_t k = 0; k < 4 * SHEETS; k++) place[k] = k;
+  random_shuffle(&random, 4 * SHEETS, place);
+  for (size_t s = 0; s < SHEETS; s++) {
+    z[s] = (s > 0 ? z[s - 1] : 0) + 1 + floor(random_between(&random, 0, 64)) / 16;
+    const double slope = floor(random_between(&random, -128, 129)), bend = floor(random_between(&random, -4, 5)) / 256;
+    for (unsigned q = 0; q < 4; q++) quarter_sheet(q, z[s], slope, bend, nets[place[4 * s + q]]);
+  }
+  world_open(&world, nets, 4 * SHEETS, NULL);
+  for (size_t b = 0; b < sizeof beside / sizeof *beside; b++) {
+    struct ray rays[RAYS_ALONG];
+    struct hit together[RAYS_ALONG];
+    for (size_t n = 0; n < RAYS_ALONG; n++) { /* from between two sheets, up or down */
+      const size_t below = n == 1 ? SHEETS - 1 : APART * n;
+      const double from = n == 0 ? z[0] - 1 : n == 1 ? z[SHEETS - 1] + 1 : (z[below] + z[below + 1]) / 2;
+      rays[n] = (struct ray){{0, beside[b], from}, {0, 0, n & 1 ? -1 : 1}, 0, INFINITY};
+    }
+    tracer_closest(world.tracer, RAYS_ALONG, rays, together);
+    for (size_t n = 0; n < RAYS_ALONG; n++) {
+      const struct hit alone = world_closest(&world, &rays[n]);
+      const size_t sheet = n == 0 ? 0 : n == 1 ? SHEETS - 1 : n & 1 ? APART * n : APART * n + 1;
+      size_t first = 4 * SHEETS;
+      for (unsigned q = 0; q < 4; q++)
+        if ((q & 2 ? beside[b] >= 0 : beside[b] <= 0) && place[4 * sheet + q] < first) first = place[4 * sheet + q];
+      assert_int_equal(alone.certainty, CERTAINTY_CERTAIN);
+      assert_int_equal(alone.patch, first);
+      if (beside[b] == 0) assert_true(alone.t == fabs(z[sheet] - rays[n].origin[2]));
+      assert_same_hit("stack", WORLD_GRID, &rays[n], &alone, &together[n]);
+    }
+  }
+  world_close(&world);
+}

@@ -123,58 +123,6 @@ TEST(rays_and_patches_of_all_sizes)
   assert_int_equal(wrong, 0);
 }
 
-enum { CROWDS = 150, CROWD = 4 };
-
-/* Patches through each other, some through the origin: with a pole there, a corner, or the middle. Coordinates are
- * whole numbers, so that a ray can meet the origin exactly. */
-static void crowd_fill(struct random *random, world_net nets[CROWD])
-{
-  for (int p = 0; p < CROWD; p++) {
-    const int kind = (int)(random_bits(random) % 4);
-    for (int n = 0; n < 48; n++) nets[p][n / 12][n / 3 % 4][n % 3] = rint(random_between(random, -8, 8));
-    double(*P)[4][3] = nets[p];
-    if (kind == 1) memset(P[0], 0, sizeof P[0]);
-    if (kind == 2) memset(P[0][0], 0, sizeof P[0][0]);
-    for (int n = 0; kind == 3 && n < 24; n++) P[3 - n / 12][3 - n / 3 % 4][n % 3] = -P[n / 12][n / 3 % 4][n % 3];
-  }
-}
-
-/* A ray from so far away that only wide arithmetic tells one hit from another meets what it meets from nearby. */
-TEST(far_rays_meet_what_near_ones_meet)
-{
-  struct random random = {SEED + 4};
-  int sure[2] = {0, 0}, wrong = 0;
-  for (int crowd = 0; crowd < CROWDS; crowd++) {
-    world_net nets[CROWD];
-    struct world world;
-    struct method method;
-    method_default(solver_at(0), &method);
-    method.split = crowd % 3;
-    crowd_fill(&random, nets);
-    world_open(&world, nets, CROWD, &method);
-    for (int n = 0; n < RAYS; n++) {
-      struct ray near = {.t_max = INFINITY};
-      do
-        for (int c = 0; c < 3; c++) near.direction[c] = rint(random_between(&random, -3, 3));
-      while (near.direction[0] == 0 && near.direction[1] == 0 && near.direction[2] == 0);
-      struct ray far = near;
-      const double away = ldexp(1, 55 + (int)(random_bits(&random) % 20));
-      for (int c = 0; c < 3; c++) near.origin[c] = -16 * near.direction[c], far.origin[c] = -away * near.direction[c];
-      const struct hit here = world_closest(&world, &near), there = world_closest(&world, &far);
-      sure[0] += here.certainty == CERTAINTY_CERTAIN, sure[1] += there.certainty == CERTAINTY_CERTAIN;
-      if (here.certainty != CERTAINTY_CERTAIN || there.certainty != CERTAINTY_CERTAIN) continue;
-      if (here.patch == there.patch &&
-          (here.patch == HIT_NONE || fmax(fabs(here.u - there.u), fabs(here.v - there.v)) < 1e-9))
-        continue;
-      if (wrong++ < 3) world_print_case("far", 0, &far, &here, &there);
-    }
-    world_close(&world);
-  }
-  print_message("of %d rays %d, %d are certain\n", CROWDS * RAYS, sure[0], sure[1]);
-  assert_int_equal(wrong, 0);
-  assert_true(sure[0] > CROWDS * RAYS * 0.98 && sure[1] > CROWDS * RAYS * 0.96);
-}
-
 enum { ACROSS = 24, FAR_RAYS = 64, FEW_LEAVES = 40 };
 
 /* However far away a ray starts, it is tried only on the leaves along it: from 2^40 to 2^100 scenes away, exactly

@@ -168,9 +168,8 @@ static size_t wrong_points(const struct world *world, const struct room *room, c
 }
 
 /* Where a room is moved, its least angle is such that the rounding of its corners is small beside its width. */
-static void rooms_of_every_angle(void **state)
+TEST(rooms_of_every_angle)
 {
-  (void)state;
   static const double degrees[] = {1e-6, 1e-5, 1e-4, 1e-3, 0.005, 0.01, 0.1, 0.5, 1, 2, 5, 10, 14, 30, 45, 60, 80};
   static const double least[PLACES] = {0, 0, 0, 0, 1e-5, 5e-3};
   const size_t step = effort_fraction() >= 0.01 ? 1 : 8;
@@ -193,9 +192,8 @@ static void rooms_of_every_angle(void **state)
 }
 
 /* A wedge of 14 degrees and a cube, in pictures of many sizes. */
-static void rooms_of_every_size(void **state)
+TEST(rooms_of_every_size)
 {
-  (void)state;
   const struct room rooms[2] = {{3, {{0, 0}, {6, 0}, {6, 1.5}}, 3}, {4, {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}, 3}};
   const struct scene_camera cameras[2] = {
     {.location = {3, 0.25, 0}, .direction = {-3, -0.25, 0}, .right = {0, 0, 2}, .up = {0, 2, 0}},
@@ -212,10 +210,4 @@ static void rooms_of_every_size(void **state)
     assert_int_equal(lit_points(&world, &cameras[room], light[room], side, room ? side : side * 3 / 4), 0);
     world_close(&world);
   }
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rooms_of_every_angle), cmocka_unit_test(rooms_of_every_size)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,9 +108,8 @@ static bool inside(const struct search_root *root)
   return root->u >= 0 && root->u <= 1 && root->v >= 0 && root->v <= 1;
 }
 
-static void roots_of_the_teapot(void **state)
+TEST(roots_of_the_teapot)
 {
-  (void)state;
   static double teapot[TEAPOT_PATCHES][4][4][3];
   const size_t pairs = effort_count(PAIRS, LEAST_PAIRS);
   struct random random = {3};
@@ -162,10 +161,4 @@ static void roots_of_the_teapot(void **state)
   assert_true(roots > pairs / 10);
   assert_true((double)found >= SHARE_UNPOLISHED * (double)roots);
   assert_int_equal(right, hits);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(roots_of_the_teapot)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,18 +37,11 @@ static double off_in_doubles(struct random *random)
   return off / local.error;
 }
 
-static void planes_in_doubles(void **state)
+TEST(planes_in_doubles)
 {
-  (void)state;
   struct random random = {SEED};
   double most = 0;
   for (int n = 0; n < RAYS; n++) most = worse(most, off_in_doubles(&random));
   print_message("off by no more than %.3g of the bound\n", most);
   assert_true(most <= 1 && most > 0.01); /* not vacuous: 0.178 */
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(planes_in_doubles)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
