@@ -16,7 +16,7 @@ static const double t_of_root = 0.5;
 
 struct subject {
   double P[4][4][3], point[3], du[3], dv[3];
-  int at[2]; /* u and v, times OF */
+  int at[2], other[2]; /* u and v, times OF, and those of another root; `at` again if none is known */
   struct ray ray;
 };
 
@@ -56,7 +56,7 @@ static void ray_along(struct subject *s, const double direction[3])
 }
 
 /* A bent patch, sometimes with a border that is a point, or whose handles have no length, or that is straight and in one
- * plane with the ray; the ray is sometimes tangent. */
+ * plane with the ray; the ray is sometimes tangent, or goes through a second point. */
 static void make_subject(struct random *random, struct subject *s)
 {
   const int kind = (int)(random_bits(random) % 6), border = (int)(random_bits(random) % 4);
@@ -75,13 +75,20 @@ static void make_subject(struct random *random, struct subject *s)
       if (kind == 3) to[c] = first[c] + k * (c == border / 2 ? 7 : 50);
     }
   }
-  for (int k = 0; k < 2; k++) s->at[k] = (int)(random_bits(random) % (OF + 1));
+  for (int k = 0; k < 2; k++) s->other[k] = s->at[k] = (int)(random_bits(random) % (OF + 1));
   evaluate(s);
+  double second[3];
+  memcpy(second, s->point, sizeof second);
+  if (kind == 5) {
+    for (int k = 0; k < 2; k++) s->at[k] = (int)(random_bits(random) % (OF + 1));
+    evaluate(s);
+  }
   const double a = (double)(random_bits(random) % 7) - 3, b = (double)(random_bits(random) % 3) + 1;
   for (int c = 0; c < 3; c++) {
     direction[c] = (double)(random_bits(random) % 9) - 4;
     if (kind == 1 || kind == 3) direction[c] = first[c] - s->point[c];
     if (kind == 4) direction[c] = a * s->du[c] + b * s->dv[c];
+    if (kind == 5) direction[c] = second[c] - s->point[c];
   }
   if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0) direction[2] = 1;
   ray_along(s, direction);
@@ -125,6 +132,12 @@ static void check_piece(const struct subject *s, const struct sight *sight, stru
     assert_true(root.box[k][0] <= local[k] && local[k] <= root.box[k][1]);
   if (verdict != PIECE_ROOT) return;
   roots++;
+  bool within = s->other[0] != s->at[0] || s->other[1] != s->at[1];
+  for (int k = 0; k < 2; k++) {
+    const double place = (double)(((wide)s->other[k] / OF - piece->low[k]) / piece->size[k]);
+    within = within && place > -PIECE_MARGIN && place < 1 + PIECE_MARGIN;
+  }
+  assert_false(within); /* it is the only one there */
   for (int k = 0; k < 2; k++) worst_root = real_max(worst_root, (fabs(root.at[k] - local[k]) - 0x1p-52) / root.radius);
   const double w = (double)(piece_depth(&exact, root.at, root.radius, &error, &known) - (wide)t_of_root * sight->along);
   if (error > 0) worst_depth = real_max(worst_depth, fabs(w) / error);
@@ -205,5 +218,6 @@ TEST(a_root_is_in_every_piece_that_holds_it)
     "%d roots, %d turns, %d boxes, %d empty, %d exchanged; of their bounds: values %.2g, depths %.2g, roots %.2g\n",
     roots, turns, boxes, empties, exchanged, worst_value, worst_depth, worst_root);
   assert_true(worst_value <= 1 && worst_depth <= 1 && worst_root <= 1);
-  assert_true(roots > CASES && turns > CASES / 2 && boxes > CASES / 20 && empties > CASES / 2 && exchanged > CASES / 8);
+  assert_true(roots > CASES && turns > CASES && exchanged > CASES / 8);
+  assert_true(boxes > 2 * CASES && empties > CASES); /* pieces next to tangencies are cut, those beside roots dropped */
 }
