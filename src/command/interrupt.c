@@ -59,4 +59,6 @@ void interrupt_resume(void)
   on_broken_pipe(SIG_DFL);
 }
 
+void interrupt_end(void) { _exit(interrupt_exit_code()); }
+
 int interrupt_exit_code(void) { return EXIT_SIGNAL + atomic_load(&interrupt_signal); }

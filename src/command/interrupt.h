@@ -20,6 +20,9 @@ void interrupt_install(void);
 void interrupt_defer(void);
 void interrupt_resume(void);
 
+/* Ends the process now, without waiting for other threads. */
+void interrupt_end(void) __attribute__((noreturn));
+
 /* 128 + the number of the signal that came; 128 if none has. */
 int interrupt_exit_code(void);
 

@@ -28,7 +28,8 @@ enum status rendering_check_outputs(const struct command *command, const struct 
 
 /* ---- what is done so far ---- */
 
-/* Loading what writes the part takes half a second, for which a signal need not wait then. In seconds. */
+/* Loading what writes the part takes some tenths of a second, for which a signal does not wait. So it is loaded after
+ * so many seconds, and until then nothing is kept. */
 #define LOADS_AFTER 1.0
 
 /* A rendering in progress. */
@@ -96,6 +97,13 @@ static void look(void *context, const struct render_progress *progress)
   const struct seconds start = seconds_now();
   (void)keep(rendering);
   rendering->kept = progress->seconds + seconds_since(start).wall;
+}
+
+/* Whether a part can be written without waiting for a library. */
+static bool can_keep(const struct rendering *rendering)
+{
+  if (rendering->has_part || rendering->has_old) return true; /* one was written or read already */
+  return (rendering->loads_part || rendering->request->format != IMAGE_PNG) && image_loading_done(rendering->loading);
 }
 
 /* Keeps what is done when a signal ends the rendering, or when its results cannot be written. */
@@ -385,7 +393,7 @@ static enum status render(const struct command *command, const struct rendering_
   const bool made = status == STATUS_OK;
   if (made) status = write_results(&rendering);
   const bool interrupted = status == STATUS_INTERRUPTED;
-  if (interrupted || (made && status != STATUS_OK)) keep_rest(&rendering, interrupted);
+  if (made ? status != STATUS_OK : interrupted && can_keep(&rendering)) keep_rest(&rendering, interrupted);
   if (status == STATUS_OK && !request->scene->quiet) report_print(&report);
   piece_destroy(&rendering.piece);
   scene_destroy(scene);
@@ -398,6 +406,7 @@ enum status rendering_make(const struct command *command, const struct rendering
   const char *unused;
   image_loading_begin(&loading, request->format != IMAGE_PNG);
   const enum status status = render(command, request, &loading);
+  if (status == STATUS_INTERRUPTED && !image_loading_done(&loading)) interrupt_end();
   (void)!image_loading_end(&loading, &unused);
   return status;
 }

@@ -12,6 +12,7 @@ static void *load_beside(void *argument)
   loading->status = image_file_ready(loading->message);
   if (loading->status != STATUS_OK) atomic_store(&loading->failed, 1);
   atomic_store(&loading->seconds, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
+  atomic_store(&loading->done, true);
   return NULL;
 }
 
@@ -39,6 +40,11 @@ double image_loading_seconds(const struct image_loading *loading)
                     clock_gettime(clock, &now) == 0; /* otherwise it has ended */
   const double all = atomic_load(&loading->seconds);
   return all > 0 || !runs ? all : clock_value(now);
+}
+
+bool image_loading_done(const struct image_loading *loading)
+{
+  return !loading->running || atomic_load(&loading->done);
 }
 
 enum status image_loading_end(struct image_loading *loading, const char **out_message)

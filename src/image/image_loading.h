@@ -13,6 +13,7 @@ struct image_loading {
   bool running;           /* image_loading_end has not yet waited for it */
   atomic_int failed;      /* turns nonzero, at any time, if loading fails */
   _Atomic double seconds; /* CPU time of loading, once it is done */
+  atomic_bool done;
   enum status status;
   char message[IMAGE_MESSAGE_SIZE];
 };
@@ -23,6 +24,9 @@ void image_loading_begin(struct image_loading *loading, bool needed);
 /* CPU seconds that loading has taken so far. They are in the process's time, but not in the other work's. To be called
  * after image_loading_begin, also after image_loading_end, by one thread. */
 double image_loading_seconds(const struct image_loading *loading);
+
+/* Whether loading has ended, well or not, or was never begun. */
+bool image_loading_done(const struct image_loading *loading);
 
 /* Waits until loading ends, and returns what image_file_ready does. `loading` owns the message. */
 enum status image_loading_end(struct image_loading *loading, const char **out_message) STATUS_MUST_CHECK;

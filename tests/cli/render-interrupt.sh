@@ -1,10 +1,15 @@
 # SIGINT gives 130, SIGTERM 143, SIGXCPU 152. None touches the picture. The finished tiles are kept beside it, or not at
 # all.
 scene=$SCENES/bent.pscn
+# Waits until the process $1 has loaded what writes the part.
+loaded() {
+  for wait in {1..400}; do grep -q pscn_openimageio "/proc/$1/maps" && break || sleep 0.05; done
+  sleep 0.5
+}
 echo old >a.png
 for signal in INT TERM XCPU; do
   pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --quiet &
-  sleep 1
+  loaded $!
   kill -$signal $!
   wait $!
   echo "exit $?"
