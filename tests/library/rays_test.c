@@ -468,7 +468,7 @@ static void test_previous(void **state)
 /* ---- threads ---- */
 
 /* The stack that pscn.h asks for, and our own arrays. Sanitizers need more. */
-enum { THREADS = 4, TURNS = 6, STACK = (1536 << 10) + COUNT * 200 };
+enum { THREADS = 4, TURNS = 6, STACK = (1024 << 10) + COUNT * 200 };
 
 /* Rays past a pole at 2^-1 ... 2^-64, from outside and along the surface, which take the deepest search. */
 static char *ask_at_pole(const struct pscn_scene *scene)

@@ -4,6 +4,7 @@
  */
 #include <assert.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "base/kernel.h"
 #include "base/lanes.h"
@@ -26,6 +27,15 @@ static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(d
                 offsetof(struct hit, normal) == 9 * sizeof(double),
               "read by fours");
 
+/* How a hit with that patch and certainty begins. */
+LANES_INLINE int64_t start_of(uint32_t patch, enum certainty certainty)
+{
+  const struct hit hit = {.patch = patch, .certainty = certainty};
+  int64_t start;
+  memcpy(&start, &hit, sizeof start);
+  return start;
+}
+
 /* The ray's point at t, along one axis: rounded, then one or two doubles nearer to the ray's origin. */
 LANES_INLINE lanes short_of(lanes origin, lanes direction, lanes t)
 {
@@ -46,18 +56,15 @@ LANES_INLINE struct left leave_lanes(const struct ray rays[], const struct hit h
   lanes_load4(hits->point, HIT_STRIDE, &px, &py, &pz, &error);
   lanes_load4(&hits->clearance, HIT_STRIDE, &clearance, &nx, &ny, &nz);
   const lanes o[3] = {ox, oy, oz}, d[3] = {dx, dy, dz}, point[3] = {px, py, pz}, normal[3] = {nx, ny, nz};
-  unsigned sure = 0, hit = 0;
-  for (unsigned l = 0; l < LANES; l++) {
-    sure |= (unsigned)(hits[l].certainty == CERTAINTY_CERTAIN) << l;
-    hit |= (unsigned)(hits[l].patch != HIT_NONE) << l;
-  }
+  const lane_mask hit = ((lane_mask)both & start_of(HIT_NONE, 0)) != start_of(HIT_NONE, 0);
+  const lane_mask certain = ((lane_mask)both & start_of(0, (enum certainty) - 1)) == start_of(0, CERTAINTY_CERTAIN);
   lanes way[3], facing = lanes_all(0), slant = lanes_all(0), longest = lanes_all(0);
   for (int c = 0; c < 3; c++) {
     way[c] = to->is_point ? to->to[c] - point[c] : lanes_all(to->to[c]);
     facing += way[c] * normal[c], slant += normal[c] * d[c];
     longest = lanes_max(lanes_abs(d[c]), longest);
   }
-  const lane_mask through = facing < 0, certain = lanes_mask(sure);
+  const lane_mask through = facing < 0;
   lanes back = to->longer * clearance / lanes_max(lanes_abs(slant), LEAST_SLANT * longest);
   back = lanes_select(through, -back, back), t = lanes_max(t - back, t_min);
   lanes start[3], on[3], moves = lanes_all(0);
@@ -69,8 +76,8 @@ LANES_INLINE struct left leave_lanes(const struct ray rays[], const struct hit h
   for (int c = 0; c < 3; c++) on[c] = lanes_select(moves > 0, on[c], way[c]); /* the start is the very point */
   lanes_store4(start[0], start[1], start[2], on[0], out->origin, RAY_STRIDE);
   lanes_store4(on[1], on[2], lanes_all(0), lanes_all(to->end), &out->direction[1], RAY_STRIDE);
-  return (struct left){hit & lanes_bits(facing > 0),
-                       hit & sure & ~lanes_bits(through) & lanes_bits(from_border(u, v) <= BESIDE_BORDER)};
+  return (struct left){lanes_bits(hit & (facing > 0)),
+                       lanes_bits(hit & certain & ~through & (from_border(u, v) <= BESIDE_BORDER))};
 }
 
 struct left KERNEL(leave_some)(size_t count, const struct ray rays[], const struct hit hits[], const struct leaving *to,
