@@ -153,26 +153,6 @@ TEST(far_rays_pass_by_what_is_not_on_their_way)
   world_close(&world);
 }
 
-/* If all points are the origin, the scene has no size; rays beside it are not tried on any patch. */
-TEST(rays_pass_by_a_scene_of_one_point)
-{
-  static world_net nets[ACROSS];
-  struct random random = {SEED + 2};
-  struct world world;
-  world_open(&world, nets, ACROSS, NULL);
-  for (int n = 0; n < FAR_RAYS; n++) {
-    struct ray ray = {.t_max = INFINITY};
-    for (int k = 0; k < 3; k++)
-      ray.origin[k] = random_between(&random, -9, 9), ray.direction[k] = random_between(&random, -1, 1);
-    const struct hit hit = world_closest(&world, &ray);
-    assert_int_equal(hit.patch, HIT_NONE);
-    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-  }
-  assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
-  assert_int_equal(tracer_counts(world.tracer)->patches_tested, 0);
-  world_close(&world);
-}
-
 /* A floor over a square with a corner in the origin of the plane, at that height there. */
 static void floor_at(double height, double size, double bend, world_net net)
 {
@@ -227,26 +207,9 @@ TEST(patches_lost_in_their_scene_have_normals)
   }
 }
 
-/* A ray that starts exactly in a corner is known not to meet it. */
-TEST(rays_from_a_corner_leave_it)
-{
-  static const double ways[][3] = {{-1, -2, 3}, {-1, 2, -5}, {3, -7, 1}, {0, 0, 1}};
-  world_net net[1];
-  struct world world;
-  floor_at(0, 1, 0.25, net[0]);
-  world_open(&world, net, 1, NULL);
-  for (size_t n = 0; n < sizeof ways / sizeof *ways; n++) {
-    struct ray ray = {.t_max = INFINITY};
-    memcpy(ray.direction, ways[n], sizeof ray.direction);
-    const struct hit hit = world_closest(&world, &ray);
-    assert_int_equal(hit.patch, HIT_NONE);
-    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-  }
-  world_close(&world);
-}
-
-/* Beyond its corner, in the same leaf or on borders too, such a ray meets what a ray meets that starts before the
- * corner and whose range begins there. A whole patch is one leaf; every third patch has a pole in that corner. */
+/* A ray that starts exactly in a corner meets beyond it, in the same leaf or on borders too, what a ray meets that
+ * starts before the corner and whose range begins there. A whole patch is one leaf; every third patch has a pole in that
+ * corner. */
 TEST(rays_from_a_corner_meet_what_is_beyond)
 {
   enum { CORNER_SCENES = 600 };

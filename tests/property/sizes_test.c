@@ -72,60 +72,6 @@ TEST(what_is_far_away_costs_nothing)
   assert_true(hits > 1000);
 }
 
-/* A bumpy square of that size in the plane y = 0, centered or with a corner there. */
-static void square(double size, bool corner, world_net net)
-{
-  static const double bump[4] = {1, 2, 0, 1}, along[4] = {1, 0, 1, 2};
-  for (int n = 0; n < 16; n++) {
-    const double at[3] = {2 * (n / 4) - 3 * !corner, bump[n / 4] * along[n % 4] / 4, 2 * (n % 4) - 3 * !corner};
-    for (int k = 0; k < 3; k++) net[n / 4][n % 4][k] = size * at[k];
-  }
-}
-
-/* Patches in one place, some up to 1e560 times as large as others: each is hit as if it were alone, in any order. */
-TEST(sizes_have_nothing_to_do_with_each_other)
-{
-  enum { SCENES = 400, MOST = 5, LEAST_APART = 3, FARTHEST = 280 };
-  struct random random = {SEED};
-  size_t hits = 0;
-  for (int n = 0; n < SCENES; n++) {
-    world_net nets[MOST];
-    double power[MOST];
-    size_t count = 0;
-    for (int k = 0; k < MOST; k++) {
-      const double here = k == 0 ? 0 : random_between(&random, -FARTHEST, FARTHEST);
-      bool apart = true;
-      for (size_t p = 0; p < count; p++) apart &= fabs(power[p] - here) >= LEAST_APART;
-      if (apart) power[count++] = here;
-    }
-    for (size_t p = 0; p < count; p++) square(pow(10, power[p]), n % 2, nets[p]);
-    struct world all;
-    world_open(&all, nets, count, NULL);
-    for (size_t p = 0; p < count; p++) {
-      struct world alone;
-      world_open(&alone, &nets[p], 1, NULL);
-      const double size = pow(10, power[p]);
-      for (int k = 0; k < RAYS; k++) {
-        struct ray ray = {.t_max = INFINITY, .origin = {0, 8 * size, 0}, .direction = {0, -1, 0}};
-        for (int c = 0; c < 3; c += 2) {
-          ray.origin[c] = size * random_between(&random, -1, 3);
-          if (k % 2) ray.direction[c] = random_between(&random, -0.1, 0.1);
-        }
-        struct hit hit = world_closest(&all, &ray);
-        const struct hit other = world_closest(&alone, &ray);
-        if (other.certainty != CERTAINTY_CERTAIN || other.patch == HIT_NONE) continue;
-        assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-        assert_int_equal(hit.patch, p);
-        assert_true(fabs(hit.t - other.t) <= 0x1p-50 * other.t);
-        hits++;
-      }
-      world_close(&alone);
-    }
-    world_close(&all);
-  }
-  assert_true(hits > SCENES * RAYS);
-}
-
 /* Bowls round 0, each 2^8 times as wide as the next, over the range of numbers that are read. Together rays are answered as
  * they are alone. */
 TEST(bowls_stand_in_bowls)
