@@ -7,6 +7,7 @@
 #include "chart/point.h"
 #include "chart/rays.h"
 #include "cmocka_test.h"
+#include "intersect/tracer.h"
 
 static struct chart_point point(double ns, double error)
 {
@@ -254,7 +255,8 @@ TEST(test_shadow_rays)
   for (int k = 0; k < PACKETS; k++) rays[k] = (struct ray){.direction = {0, 0, -1}, .t_max = 1};
   struct arena *arena = arena_create();
   struct ray_list shadows;
-  assert_int_equal(rays_of_shadows(&scene, NULL, &camera, hits, arena, &shadows), STATUS_OK);
+  struct tracer tracer = {.model = NULL}; /* for hits that are not certain nothing is traced */
+  assert_int_equal(rays_of_shadows(&scene, &tracer, &camera, hits, arena, &shadows), STATUS_OK);
   assert_int_equal(shadows.count, LIGHTS * HITS);
   assert_int_equal(shadows.packet_count, LIGHTS * HITS);
   for (size_t k = 0; k < LIGHTS * HITS; k++) {
