@@ -50,4 +50,5 @@ try pscn render up/scene.pscn --untrusted -o out/large.png --size 8192x4096
 try pscn render up/scene.pscn --untrusted -o out/large.png --size 2048x2048 --samples 9
 # Time: a loop of the scene's ends as `ulimit -St` would end it, and what is set is not changed.
 (ulimit -St 1; exec pscn render up/scene.pscn --untrusted -o out/long.png --size 1024x1024 --samples 16 --quiet); echo "exit $?"
+rm -f out/long.png.part.exr # if there was time to keep it
 find up out -type f | LC_ALL=C sort
