@@ -307,7 +307,7 @@ static void disc_quarter(size_t quarter, world_net net)
 /* A ray in the plane of a flat patch meets curves, which begin on its borders. */
 TEST(of_what_lies_in_a_plane_little_is_looked_at)
 {
-  enum { PLANE_RAYS = 100, WORK_MOST = 3000 };
+  enum { PLANE_RAYS = 100, WORK_MOST = 4000 };
   struct random random = {SEED + 7};
   world_net nets[4];
   struct world world;
