@@ -183,7 +183,7 @@ default_item:
 declared_value: declare shade ';'              { declare_value(language, $1, $2); }
   | declare shade %prec ITEM                   { declare_open(language, $1, $2); };
 layers: %empty | layers TEXTURE { layer_begin(language, $2); } '{' texture_items '}' { layer_end(language, $6); };
-/* What can be declared besides a value. */
+/* Declarations of anything but a value. */
 solid:
     object                                     { $$ = value_of_object(language, $1); }
   | part_block                                 { $$ = value_of_texture(language, $1); }

@@ -33,7 +33,7 @@ struct expansion {
   bool told;  /* a point that is too large */
 };
 
-/* What a node passes down to its children. */
+/* A node passes this down to its children. */
 struct inherited {
   const struct transform *transform;
   const struct texture *texture; /* of the nearest node that has one; each object of the scene does */
@@ -78,7 +78,7 @@ static bool intern(struct expansion *e, struct list *list, const void *item, uin
   return true;
 }
 
-/* What became of numbers that must be in the range of a scene's. */
+/* How numbers were brought into the range of a scene's. */
 enum { RANGE_SMALL = 1, RANGE_LARGE = 2 }; /* some are 0 now; some are too large */
 
 static unsigned bring_in_range(double *x, size_t count)

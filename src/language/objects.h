@@ -11,7 +11,7 @@
 /* The settings of a patch, by number. */
 enum { PATCH_TYPE, PATCH_FLATNESS, PATCH_U_STEPS, PATCH_V_STEPS, PATCH_SETTINGS };
 
-/* What the copies of a declared object share. */
+/* The part that all copies of a declared object share. */
 struct sharing {
   size_t uses;      /* how often it is named */
   uint32_t object;  /* its index in scene.objects plus 1, once it is there */
@@ -79,7 +79,7 @@ struct node *node_end(struct language *language, struct span brace);
 void node_transform(struct language *language, const struct transform *transform);
 void node_texture(struct language *language, struct texture *texture); /* keeps it */
 struct value *value_of_object(struct language *language, struct node *object);
-/* A shape that pscn lacks: an error, or an object without patches. Passes its block. */
+/* A shape, which is not supported: an object without patches. Passes its block. */
 struct node *shape_pass(struct language *language, struct span place);
 void scene_add(struct language *language, struct node *object);
 

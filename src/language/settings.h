@@ -15,7 +15,7 @@ struct light_node {
   bool modified;
 };
 
-/* What the statements have said so far. */
+/* The statements so far. */
 struct settings {
   double background[3], ambient_light[3];
   double version, gamma;                           /* the last #version, the first assumed_gamma (scene/gamma.h) */

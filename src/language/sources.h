@@ -7,7 +7,7 @@
 #include "base/table.h"
 #include "scene/scene.h"
 
-/* What an #end ends. */
+/* The directives that an #end ends. */
 enum opener { OPEN_IF, OPEN_WHILE, OPEN_FOR, OPEN_SWITCH };
 
 struct condition {

@@ -1,4 +1,4 @@
-/* The state of one reading, and its memory. What each part of the room keeps while reading is in its own header.
+/* The state of one reading, and its memory. The state of each part is in its own header.
  *
  * Each header needs only those before it: state, sources (text and places), errors, symbols (names), values, declare. */
 #ifndef PSCN_LANGUAGE_STATE_H
@@ -55,7 +55,7 @@ struct declaration {
   bool begun; /* something of its value has been read */
   struct span name;
   int depth;         /* of its symbol */
-  struct span lacks; /* the first word in it that pscn lacks, or none */
+  struct span lacks; /* the first thing in it that is not supported, or none */
 };
 
 struct language {
@@ -71,7 +71,7 @@ struct language {
   struct value *layered;                  /* the declared texture that more layers may follow, or NULL */
   size_t declared;                        /* declarations that have ended */
   int idle;                               /* choices whose other branch is being read */
-  bool lenient;                           /* what pscn lacks is left out */
+  bool lenient;                           /* settings.lenient */
   bool stopped;                           /* by #error */
   double clock;                           /* of the frame */
   bool animated;                          /* clock_on */

@@ -26,7 +26,7 @@ char *string_make(struct language *language, struct value *value, size_t length)
   return text;
 }
 
-/* What a \ and this letter stand for; others stand for themselves. */
+/* The character for which a \ and this letter stand; others stand for themselves. */
 static char escaped(char letter)
 {
   static const char letters[] = "abfnrtv0", meant[] = "\a\b\f\n\r\t\v";
@@ -69,7 +69,7 @@ void string_add_number(double x, double length, double precision, char *text, si
 /* The lines that a stranger's #debug may print; a loop could fill a disk with them. */
 enum { UNTRUSTED_LINES = 1000 };
 
-/* What #debug has said of a line that is not ended. */
+/* The begun line of #debug. */
 struct messages {
   char text[1000];
   size_t used, lines;

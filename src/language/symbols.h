@@ -81,7 +81,7 @@ struct symbols {
 void symbols_enter(struct symbols *symbols);
 void symbols_leave(struct symbols *symbols);
 
-/* What a name stands for. NULL if it is not declared, or if its declaration has only begun. */
+/* The meaning of a name. NULL if it is not declared, or if its declaration has only begun. */
 const struct symbol *symbol_of(const struct language *language, const char *name, size_t length);
 struct value *symbol_find(const struct language *language, const char *name, size_t length); /* its value */
 /* Whether #ifdef takes the name for declared: from the = of its declaration on, as in POV-Ray. */

@@ -41,7 +41,7 @@ static inline const char *texture_kind(const struct texture *texture)
 /* The texture until the first #default, which only affects what follows it. */
 extern const struct texture TEXTURE_OF_POVRAY;
 void texture_set_default(struct language *language, const struct texture *texture);
-/* What is set in `from` replaces that in `to`. */
+/* The parts that are set in `from` replace those in `to`. */
 void texture_apply(struct texture *to, const struct texture *from);
 
 /* Actions of the grammar, in the order of the text. Between a begin and its end they concern the innermost block. */
