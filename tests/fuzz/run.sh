@@ -29,7 +29,8 @@ words=$build/words.dict
     '*/' '//' '//: ' '1e308' '1e-320' '-1' '0.5' '<1,2,3>' 'rgb 1' '#declare A = ' '#local B = ' '; ' 'Given' 'nested.inc' \
     'sphere { 0, 1 }' 'granite ' 'A ' '#undef A' '<1,2>' '#if (' '#elseif (' '#while (' '#for (I, 0, 3) ' '#switch (' \
     '#case (1)' '#range (1, 2)' '#break' '#macro M(A) ' 'M(1)' '#end ' 'array[2]' '[0]' '[' ']' '?' ':' '&' '|' '<=' '!=' \
-    '#debug ' '#error ' 'concat(' 'str(1, 0, 2)' 'rand(S)' 'seed(1)' 'defined(A)' 'sin(' 'max(' 'vrotate(' 'hollow ' 'transform { A scale 2 }' 'concat("a", A)' '.transmit' '<1,2,3,4,5>'
+    '#debug ' '#error ' 'concat(' 'str(1, 0, 2)' 'rand(S)' 'seed(1)' 'defined(A)' 'sin(' 'max(' 'vrotate(' 'hollow ' \
+    'transform { A scale 2 }' 'concat(\"a\", A)' '.transmit' '<1,2,3,4,5>'
 } | sort -u >"$words"
 options=$build/options.dict
 {
