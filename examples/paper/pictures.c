@@ -27,7 +27,7 @@ static void trace_lines(const struct scene *scene, struct tracer *tracer[2], siz
     struct hit hit;
     camera_ray(&scene->camera, ((double)(p % width) + 0.5) / (double)width,
                ((double)(p / width) + 0.5) / (double)height, &ray);
-    tracer_measure(tracer[0], &ray, &hit, &out[p].solver);
+    measure_ray(tracer[0], &ray, &hit, &out[p].solver);
     shade_packet(scene, tracer[1], 1, &ray, &hit, &out[p].rgb);
     out[p].depth = hit.patch == HIT_NONE ? INFINITY : hit.t * vector_length(ray.direction);
   }

@@ -6,12 +6,12 @@
 #include <stddef.h>
 
 #include "image/image.h"
-#include "intersect/explain.h"
+#include "render/measure.h"
 
 struct picture_pixel {
-  double rgb[3];                   /* linear, shaded with shadows */
-  double depth;                    /* of its hit along the ray; infinite for a miss */
-  struct explained_numbers solver; /* its work */
+  double rgb[3];                /* linear, shaded with shadows */
+  double depth;                 /* of its hit along the ray; infinite for a miss */
+  struct solver_numbers solver; /* its work */
 };
 
 /* Every pixel of the picture by the solver, or by the scene's own one if it is NULL: one ray each, one after the other

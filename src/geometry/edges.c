@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "geometry/surfaces.h"
 
 struct border {
   double point[4][3]; /* in the direction that sorts first */
@@ -34,7 +35,7 @@ enum { KEYS = 2 * 12 + 1 };
 struct matching {
   const char *nets;
   size_t stride, count;
-  const bool *left_out;
+  const uint32_t *surface;
   size_t workers;
   uint64_t key[KEYS];
   uint64_t *hash; /* [4 * patch + border] */
@@ -170,7 +171,7 @@ static enum status match_borders(void *context, size_t worker)
   const size_t begin = share(m, worker, m->slot_count), end = share(m, worker + 1, m->slot_count);
   for (size_t k = 0; k < 4 * m->count; k++) {
     const size_t home = (size_t)((m->hash[k] >> 32) * m->slot_count >> 32);
-    if (home < begin || home >= end || (m->left_out && m->left_out[k / 4])) continue;
+    if (home < begin || home >= end || (m->surface && m->surface[k / 4] & SURFACE_AGAIN)) continue;
     if (!place_border(m, k, m->slots + begin, end - begin, home - begin)) {
       atomic_store(&m->overflowed, true);
       break;
@@ -179,15 +180,15 @@ static enum status match_borders(void *context, size_t worker)
   return STATUS_OK;
 }
 
-enum status edges_match(const void *nets, size_t stride, size_t count, const bool left_out[], const struct team *team,
-                        struct edge_neighbour *out)
+enum status edges_match(const void *nets, size_t stride, size_t count, const uint32_t surface[],
+                        const struct team *team, struct edge_neighbour *out)
 {
   if (count == 0) return STATUS_OK;
   if (count >= MANY / 4) return STATUS_LIMIT;
   struct matching m = {.nets = nets,
                        .stride = stride,
                        .count = count,
-                       .left_out = left_out,
+                       .surface = surface,
                        .workers = team_count(team),
                        .slot_count = 6 * count,
                        .out = out};

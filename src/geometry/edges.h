@@ -46,8 +46,9 @@ void edge_points(double P[4][4][3], int border, double out[4][3]);
 bool edge_is_point(double P[4][4][3], int border);
 
 /* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes; any team gives the same. Nets that
- * are left_out, unless it is NULL, are nobody's neighbours. STATUS_LIMIT if memory or threads are short. */
-enum status edges_match(const void *nets, size_t stride, size_t count, const bool left_out[], const struct team *team,
-                        struct edge_neighbour *out) STATUS_MUST_CHECK;
+ * an earlier one equals, by their surfaces (surfaces.h; NULL: none), are nobody's neighbours. STATUS_LIMIT if memory or
+ * threads are short. */
+enum status edges_match(const void *nets, size_t stride, size_t count, const uint32_t surface[],
+                        const struct team *team, struct edge_neighbour *out) STATUS_MUST_CHECK;
 
 #endif

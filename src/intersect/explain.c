@@ -1,4 +1,4 @@
-/* Tells what becomes of a ray. See explain.h. */
+/* Reports what becomes of a ray. See explain.h. */
 #include "intersect/explain.h"
 
 #include <limits.h>
@@ -6,12 +6,11 @@
 #include <string.h>
 
 #include "geometry/patch.h"
-#include "intersect/local_ray.h"
 #include "intersect/method.h"
 
 /* The listener, and the candidate under way. */
 struct explainer {
-  explain_listener *tell;
+  explain_listener *listener;
   void *context;
   struct intersect_counts before; /* at the start of the candidate */
   double t_before;
@@ -41,21 +40,31 @@ void explain_before(struct tracer *tracer, const struct model *model, const stru
 }
 
 /* The positions along the ray of the points that are offered. */
-static void place_points(const struct local_ray *local, const double w[16], const struct explained_ray *ray,
-                         struct explained_candidate *story)
+static void place_points(const struct explained_ray *ray, struct explained_candidate *story)
 {
   double depths[4][4];
-  memcpy(depths, w, sizeof depths);
+  memcpy(depths, ray->leaf->x[ray->axis], sizeof depths);
   for (int k = 0; k < story->found.roots.count; k++) {
     if (story->found.fate[k] != ROOT_OFFERED) continue;
     const double kept = story->found.roots.root[k].re, other = story->found.other[k];
     const double u = story->v_kept ? other : kept, v = story->v_kept ? kept : other;
-    story->t[k] = ray->shift + t_of_depth(&local->depth, patch_evaluate(depths, u, v).value);
+    const double depth = patch_evaluate(depths, u, v).value;
+    story->t[k] = ray->shift + ((depth + ray->start[1]) + ray->start[0]) * ray->to_t;
   }
 }
 
-/* The leaf, its a and b, and what the solver makes of them if it has not been told already. */
-static void tell_algebra(struct explainer *explainer, const struct explained_ray *ray)
+/* The plane polynomials' nets for a net x. */
+static void plane_nets(const struct explained_ray *ray, const double x[3][16], double a[16], double b[16])
+{
+  const double *xk = x[ray->axis], *xi = x[(ray->axis + 1) % 3], *xj = x[(ray->axis + 2) % 3];
+  for (int c = 0; c < 16; c++) {
+    a[c] = (xi[c] - ray->moment[0]) - ray->slope[0] * xk[c];
+    b[c] = (xj[c] - ray->moment[1]) - ray->slope[1] * xk[c];
+  }
+}
+
+/* The leaf, its a and b, and what the solver makes of them if it has not run already. */
+static void report_algebra(struct explainer *explainer, const struct explained_ray *ray)
 {
   struct explained_candidate *story = &explainer->story;
   const struct leaf *leaf = ray->leaf;
@@ -67,18 +76,14 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
   leaf_form_make(patch, leaf, &form);
   story->v_kept = form.v_kept;
   story->kept_degree = form.kept_degree, story->other_degree = form.eliminated_degree;
-  struct local_ray local;
   struct method_planes planes = {.form = &form};
-  double w[16], unused[16];
-  local_ray_make(patch, &ray->ray, &local);
-  local_ray_nets(&local, leaf->x, planes.a, planes.b, w);
-  if (!form.own) local_ray_nets(&local, form.x, planes.a, planes.b, unused);
+  plane_nets(ray, form.own ? leaf->x : form.x, planes.a, planes.b);
   memcpy(story->a, planes.a, sizeof story->a), memcpy(story->b, planes.b, sizeof story->b);
   if (!story->solved) return;
   struct method_roots points;
   if (!story->by_solver)
     method_find(patch->method, &planes, INT_MAX, explainer->warmed ? &explainer->warm : NULL, &points, &story->found);
-  place_points(&local, w, ray, story);
+  place_points(ray, story);
 }
 
 void explain_after(struct tracer *tracer, const struct explained_ray *ray)
@@ -87,92 +92,25 @@ void explain_after(struct tracer *tracer, const struct explained_ray *ray)
   const struct intersect_counts *before = &explainer->before, *after = &tracer->counts;
   struct explained_candidate *story = &explainer->story;
   story->blind = ray->blind;
-  /* Not tried: closed by its slab or pole, or left open at once. */
+  /* Not tried: closed by its slab, or left open at once. */
   if (!story->blind && after->patches_tested == before->patches_tested) return;
   for (int k = 0; k < STAGE_COUNT; k++)
     if (after->stages[k] > before->stages[k]) story->reached = (enum stage)k;
   story->solved = !story->blind && (story->reached == STAGE_BILINEAR || story->reached == STAGE_ROOTS);
-  tell_algebra(explainer, ray);
+  report_algebra(explainer, ray);
   story->left_open = story->blind || after->escalated > before->escalated;
   story->taken = ray->t != explainer->t_before;
   story->proven = ray->proven;
   story->hit_t = ray->shift + ray->t, story->hit_u = ray->u, story->hit_v = ray->v;
   story->radius_u = ray->radius_u, story->radius_v = ray->radius_v;
-  explainer->tell(explainer->context, story);
+  explainer->listener(explainer->context, story);
 }
 
-void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *tell, void *context,
+void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *listener, void *context,
                     struct hit *out_hit)
 {
-  struct explainer explainer = {.tell = tell, .context = context};
+  struct explainer explainer = {.listener = listener, .context = context};
   tracer->explainer = &explainer;
   tracer_closest(tracer, 1, ray, out_hit);
   tracer->explainer = NULL;
-}
-
-/* ---- numbers ---- */
-
-/* A root that may be the hit. */
-struct measured_root {
-  uint32_t patch;
-  int split[2], column_u, column_v;
-  bool v_kept;
-  double re, im, residual;
-};
-
-enum { MEASURED_ROOTS = 256 }; /* of one ray; those beyond are ignored */
-
-/* Roots farther than this outside the kept parameter's range are not the hit. */
-#define MEASURED_MARGIN 0.125
-
-struct measured {
-  struct explained_numbers *numbers;
-  int count;
-  struct measured_root root[MEASURED_ROOTS];
-};
-
-static void measure_candidate(void *context, const struct explained_candidate *candidate)
-{
-  struct measured *all = context;
-  const struct explained_roots *found = &candidate->found;
-  const struct polynomial r = {found->degree, found->basis, found->c, NULL};
-  for (int k = 0; candidate->solved && k < found->roots.count; k++) {
-    const struct root *root = &found->roots.root[k];
-    all->numbers->iterations += root->iterations;
-    all->numbers->roots += 1;
-    const bool near = fabs(root->re - 0.5) <= 0.5 + MEASURED_MARGIN && fabs(root->im) <= MEASURED_MARGIN;
-    if (!near || all->count == MEASURED_ROOTS) continue;
-    all->root[all->count++] = (struct measured_root){candidate->patch,
-                                                     {candidate->split[0], candidate->split[1]},
-                                                     candidate->column_u,
-                                                     candidate->column_v,
-                                                     candidate->v_kept,
-                                                     root->re,
-                                                     root->im,
-                                                     polynomial_eq11(&r, root->re, root->im)};
-  }
-}
-
-/* How far the root is from the hit's kept parameter, if its leaf holds the hit; else infinite. */
-static double distance_to(const struct measured_root *root, const struct hit *hit)
-{
-  const double u = hit->u * root->split[0] - root->column_u, v = hit->v * root->split[1] - root->column_v;
-  const bool holds = fabs(u - 0.5) <= 0.5 + MEASURED_MARGIN && fabs(v - 0.5) <= 0.5 + MEASURED_MARGIN;
-  return root->patch == hit->patch && holds ? hypot(root->re - (root->v_kept ? v : u), root->im) : INFINITY;
-}
-
-void tracer_measure(struct tracer *tracer, const struct ray *ray, struct hit *out_hit,
-                    struct explained_numbers *out_numbers)
-{
-  struct measured all;
-  all.count = 0, all.numbers = out_numbers;
-  *out_numbers = (struct explained_numbers){0, 0, 0};
-  tracer_explain(tracer, ray, measure_candidate, &all, out_hit);
-  if (out_hit->patch == HIT_NONE) return;
-  double nearest = INFINITY;
-  out_numbers->residual = INFINITY;
-  for (int k = 0; k < all.count; k++) {
-    const double distance = distance_to(&all.root[k], out_hit);
-    if (distance < nearest) nearest = distance, out_numbers->residual = all.root[k].residual;
-  }
 }

@@ -1,7 +1,7 @@
-/* Tells what becomes of a ray while it is traced: its candidates in the order in which it comes to them, the polynomial
+/* Reports what becomes of a ray while it is traced: its candidates in the order in which it comes to them, the polynomial
  * of each, the roots that the solver finds, and which root is taken.
  *
- * A tracer that is not asked to explain is not slowed down.
+ * A tracer that explains nothing is not slowed down.
  */
 #ifndef PSCN_INTERSECT_EXPLAIN_H
 #define PSCN_INTERSECT_EXPLAIN_H
@@ -51,17 +51,9 @@ struct explained_candidate {
 
 typedef void explain_listener(void *context, const struct explained_candidate *candidate);
 
-/* As tracer_closest for one ray; calls `tell` for every candidate that its slab and its pole do not close at once. */
-void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *tell, void *context,
+/* As tracer_closest for one ray; calls `listener` for every candidate that its slab does not close at once. */
+void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *listener, void *context,
                     struct hit *out_hit);
-
-/* As tracer_closest for one ray; sums what the solver did for it over all of its candidates. */
-struct explained_numbers {
-  double iterations, roots; /* sums */
-  double residual; /* eq 11's ratio for the root nearest to the hit; 0 for a miss, infinite if there is no root */
-};
-void tracer_measure(struct tracer *tracer, const struct ray *ray, struct hit *out_hit,
-                    struct explained_numbers *out_numbers);
 
 /* ---- internal to src/intersect ---- */
 
@@ -69,19 +61,21 @@ struct model;
 struct model_patch;
 struct leaf;
 
-/* What the lanes tell of a candidate's ray, which is the only one of its packet, in the coordinates of the leaf's
+/* What the lanes know of a candidate's ray, which is the only one of its packet, in the coordinates of the leaf's
  * model. That model's first patch is first_patch in the scene; t in the scene is shift + t. */
 struct explained_ray {
   const struct leaf *leaf;
   const struct model_patch *patch; /* the leaf's */
   uint32_t first_patch;
-  struct ray ray;
+  /* the ray's planes in the frame of the patch (local_ray.h), and t = ((x_k + start[1]) + start[0]) to_t */
+  int axis;
+  double slope[2], moment[2], start[2], to_t;
   double shift;
   bool blind, proven;
   double t, u, v, radius_u, radius_v; /* the nearest so far */
 };
 
-/* Where method.c puts what becomes of a candidate's r; NULL if nobody asks. */
+/* Where method.c puts what becomes of a candidate's r; NULL for nowhere. */
 struct explained_roots *explain_roots(struct tracer *tracer);
 
 /* Called before and after a candidate, if the tracer is to explain. */

@@ -15,7 +15,7 @@
 struct intersector {
   struct model *model;
   const struct kernel *kernel;
-  bool warm; /* some patch asks for `start previous` */
+  bool warm; /* some method has `start previous` */
 };
 
 /* As many rays as an AVX2 register holds. A choice of speed. */
@@ -37,7 +37,7 @@ size_t kernels_here(const struct kernel *out[KERNELS_MAX])
   return count;
 }
 
-/* The best kernel, or the one that the environment asks for; NULL if that is not here. */
+/* The best kernel, or the one that the environment names; NULL if that is not here. */
 static const struct kernel *kernel_chosen(void)
 {
   const struct kernel *kernels[KERNELS_MAX];
@@ -179,15 +179,15 @@ void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
 void tracer_stop_at(struct tracer *tracer, const atomic_int *stop) { tracer->stop = stop; }
 
-/* Does not count the work on rays that are asked again, only their new answers. */
+/* Does not count the work on rays that are traced again, only their new answers. */
 static void count_again(struct tracer *tracer, const struct intersect_counts *before, uint64_t certain_now)
 {
   tracer->counts = *before;
   tracer->counts.certain += certain_now, tracer->counts.grazing -= certain_now;
 }
 
-/* Asks for these rays, given as bits, one by one (tracer_asks_again). */
-static void ask_alone(struct tracer *tracer, unsigned unsettled, const struct ray rays[], struct hit hits[])
+/* Traces these rays, given as bits, one by one (tracer_repeats). */
+static void trace_alone(struct tracer *tracer, unsigned unsettled, const struct ray rays[], struct hit hits[])
 {
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
@@ -203,7 +203,7 @@ static void ask_alone(struct tracer *tracer, unsigned unsettled, const struct ra
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
   const unsigned unsettled = kernel_for(tracer, count, rays)->closest(tracer, count, rays, out_hits);
-  if (unsettled && tracer_asks_again(tracer, count)) ask_alone(tracer, unsettled, rays, out_hits);
+  if (unsettled && tracer_repeats(tracer, count)) trace_alone(tracer, unsettled, rays, out_hits);
 }
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
@@ -217,8 +217,8 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
 }
 
 /* The same for all hits; list k's hits begin at first[k] of the tracer's. Returns whether there was enough memory. */
-static bool ask_all_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list lists[],
-                          size_t first[])
+static bool trace_all_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list lists[],
+                            size_t first[])
 {
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
@@ -241,8 +241,8 @@ enum status tracer_all(struct tracer *tracer, size_t count, const struct ray ray
   tracer->hits.count = 0;
   if (!kernel_for(tracer, count, rays)->all(tracer, count, rays, out)) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) first[k] = hits, hits += out[k].count;
-  const bool again = tracer->counts.grazing > grazing && tracer_asks_again(tracer, count);
-  if (again && !ask_all_alone(tracer, count, rays, out, first)) return STATUS_LIMIT;
+  const bool again = tracer->counts.grazing > grazing && tracer_repeats(tracer, count);
+  if (again && !trace_all_alone(tracer, count, rays, out, first)) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) out[k].hits = (const struct hit *)tracer->hits.at + first[k];
   return STATUS_OK;
 }

@@ -4,15 +4,15 @@
  * counters, its scratch memory and its warm starts. No call on a tracer but tracer_all allocates or fails.
  *
  * With `polish on`, the default, a hit is the nearest of all points with t in (t_min, t_max) where the exact ray meets
- * the exact patches; of patches that are equally near the first is reported. A miss means that there is
- * no such point. `certain` means that this is proven. `grazing` means that a change of the input within the rounding
- * bound of the evaluation can turn the answer (a tangency, the border of an open surface, a coincident component). A
- * hit is then reported if one cannot be excluded, unless 113 bits cannot tell it from t_min or t_max. Corners and poles
- * are given points: the nearest hit is certain if the ray meets one exactly, even where the surface is open there. In
- * a list of all hits it is then grazing, because how many patches meet in that point means nothing.
+ * the exact patches, borders included. Of patches that are equally near the first is reported. A miss means that there
+ * is no such point. `certain` means that this is proven. `grazing` means that it is not: the ray touches a surface
+ * exactly, lies in one, or passes so near such a place that its share of work does not suffice. A hit is then reported
+ * if one cannot be excluded. A border, a corner or a pole that the ray meets exactly is a certain hit, even where the
+ * surface is open there. A list of all hits is then grazing, because it does not follow on which side of the surface
+ * the ray is.
  *
  * The answer to a ray does not depend on the other rays of its packet, with these exceptions: its last places, if
- * another hit is so near that double precision cannot tell which comes first; its last places and its certainty, if
+ * another hit is so near that double precision does not show which comes first; its last places and its certainty, if
  * what it passes before or behind its hit takes all of its share of work; and answers with `start previous`.
  */
 #ifndef PSCN_INTERSECT_INTERSECT_H
@@ -48,7 +48,7 @@ struct hit {
   double u, v;        /* parameters of the whole patch, in [0,1] */
   double point[3];    /* S(u,v) */
   double point_error; /* absolute bound on the distance from `point` to the exact patch */
-  /* how far off the surface a ray must start to be told from one that starts on the surface (tracer_leave) */
+  /* how far off the surface a ray must start to be distinct from one that starts on it (tracer_leave) */
   double clearance;
   double normal[3]; /* unit, facing the ray's origin */
 };
@@ -59,9 +59,8 @@ struct hit {
  *
  * `certain`: it is proven that there are `count` hits, that each is listed, and that this is their order. So a ray
  * whose t_max is infinite starts inside a closed surface if `count` is odd, and outside if it is even. `grazing`: not
- * proven, because the ray touches a surface, an open border or a crease from outside, or starts or ends on a surface,
- * as nearly as 113 bits can tell. The list then has the proven hits and the possible ones; their own certainty tells
- * them apart. */
+ * proven, because the ray touches a surface or a crease from outside, meets an open border, or its share of work did
+ * not suffice. The list then has the proven hits and the possible ones, which are grazing themselves. */
 struct hit_list {
   enum certainty certainty;
   size_t count;
@@ -90,7 +89,7 @@ struct intersect_counts {
 struct intersector;
 struct tracer;
 
-/* Whether this processor and this program have the instruction set that the environment variable PSCN_KERNEL asks for
+/* Whether this processor and this program have the instruction set that the environment variable PSCN_KERNEL names
  * (baseline, avx2 or avx512; none: the best there is). */
 bool intersector_kernel_here(void);
 
@@ -109,7 +108,7 @@ enum status intersector_create_by(const struct scene *scene, const struct team *
                                   struct intersector **out) STATUS_MUST_CHECK;
 void intersector_destroy(struct intersector *intersector);
 
-/* Whether patches have fewer leaves than their `split` asks for, because memory was short. */
+/* Whether patches have fewer leaves than their `split` says, because memory was short. */
 bool intersector_cut_less(const struct intersector *intersector);
 
 enum status tracer_create(const struct intersector *intersector, struct tracer **out) STATUS_MUST_CHECK;

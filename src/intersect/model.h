@@ -19,7 +19,7 @@
 #include "base/team.h"
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
-#include "geometry/flats.h"
+#include "geometry/surfaces.h"
 #include "intersect/certificate.h"
 #include "scene/scene.h"
 
@@ -56,13 +56,13 @@ struct leaf_parts {
   double error;       /* bound on what rounding the rest adds to local_ray.error in either plane's polynomial */
   bool final;         /* its rounding is so small that its roots need no last step */
   /* after a step up to these, in leaf parameters, the root is right to the rounding of its coordinates, and derivatives
-   * to their own */
+   * before it to their own */
   double last_step, slope_step;
 };
 
 #define LEAF_GRAIN 0x1p-24
 
-/* The leaf's net lies where |g x - offset| <= half; |g_x| + |g_y| + |g_z| = 1 up to rounding. If its corners tell no
+/* The leaf's net lies where |g x - offset| <= half; |g_x| + |g_y| + |g_z| = 1 up to rounding. If its corners give no
  * direction in its middle, g is 0 and half infinite. */
 struct leaf_slab {
   double g[3], offset, half;
@@ -89,7 +89,6 @@ struct leaf {
   uint32_t patch;
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and the same in v */
   bool has_quadric;            /* a leaf that is not kept gets its quadric on first use */
-  uint8_t pole;                /* 1 + the first border (geometry/edges.h) that is a pole, 0: none */
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
@@ -127,7 +126,6 @@ struct leaf_room {
 struct model_object {
   const struct scene_object *declared;
   struct model *model; /* its patches as declared, about its middle; no scene, no neighbours; owned */
-  bool *twin;          /* the model's; NULL if the scene has none */
   /* bound on how far a point of a copy, or of a ray near it, may be off in the object's coordinates */
   double error;
 };
@@ -136,12 +134,8 @@ struct model_object {
 struct model_copy {
   struct model_object *object;
   uint32_t first_patch;
-  bool twin; /* all of its patches are twins */
   double W[3][3], b[3];
 };
-
-/* From this many surfaces on that a line crosses, nodes may have the boxes along their leaves side by side. */
-enum { MANY_CROSSINGS = 4 };
 
 /* A hierarchy in its own frame: (world - origin)/frame, all within about [-1,1], frame a power of two. Its boxes are
  * floats, which resolve little of what is far smaller than the frame. So small boxes that lie together get their own
@@ -150,7 +144,6 @@ enum { MANY_CROSSINGS = 4 };
 struct model_tree {
   double origin[3], frame;
   struct bvh bvh;
-  double crossings; /* how many surfaces a line that meets the tree crosses, on average, about */
 };
 
 struct model {
@@ -166,14 +159,10 @@ struct model {
   struct leaf_place *places;         /* where leaves are that are not kept; else NULL */
   struct oriented_box *oriented;     /* the leaves' */
   void *oriented_room;               /* their memory if leaves are not kept; owned */
-  struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h; twins have none */
-  /* patches that lie exactly on an earlier one (geometry/twins.h), of an object those that do in all copies: never the
-   * nearest; NULL if there are none */
-  bool *twin;
-  /* the plane across an axis that a patch lies in (geometry/flats.h), 0 for none; NULL if no patch has one. A ray meets
-   * all patches of one plane at one t: the first in the scene is before the others */
-  uint32_t *plane;
-  struct flat_plane *planes; /* indexed by these numbers */
+  struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h */
+  /* the surface of each patch of the scene (geometry/surfaces.h), 0 for one of its own; NULL if no two patches share
+   * one. A ray meets all patches of one surface at one t, and the first in the scene comes before the others */
+  uint32_t *surface;
   size_t leaf_count;
   struct model_object *objects;
   size_t object_count;
@@ -183,8 +172,7 @@ struct model {
   struct model_tree tree;
   struct model_tree *inner; /* in the arena; none has inner trees itself */
   size_t inner_count;
-  struct model_tree twins; /* of what lies exactly on something in `tree`, in its frame: only for all hits */
-  bool unproven;           /* `polish off` on some patch, or too large: no answer is proven */
+  bool unproven; /* `polish off` on some patch: no answer is proven */
 };
 
 /* Prepares all patches of the scene, which it borrows; a large scene by a team, with the same outcome. STATUS_LIMIT if
@@ -192,20 +180,13 @@ struct model {
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
 
-/* Whether some patch's method asks for more leaves than there was memory for. */
+/* Whether some patch's method has more leaves than there was memory for. */
 bool model_cut_less(const struct model *model);
 
-/* The number of the plane across an axis that the patch lies in, or 0. */
-static inline uint32_t model_plane(const struct model *model, size_t patch)
+/* Whether the patch lies exactly on an earlier one, and so is never the nearest. */
+static inline bool model_again(const struct model *model, size_t patch)
 {
-  return model->plane ? model->plane[patch] : 0;
-}
-
-/* That plane; NULL for none. */
-static inline const struct flat_plane *model_flat_plane(const struct model *model, size_t patch)
-{
-  const uint32_t number = model_plane(model, patch);
-  return number ? &model->planes[number] : NULL;
+  return model->surface && model->surface[patch] & SURFACE_AGAIN;
 }
 
 /* The neighbour across a border (geometry/edges.h) of the patch. */

@@ -24,8 +24,7 @@
 #define POINT_ERROR(scale, tangent, magnitude) \
   (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
 
-/* A ray that starts nearer to the surface than this plus the point's own error cannot be told from one that starts on
- * it: 128 times the rounding of the new origin (tracer_leave), and the distance within which the last resort cannot exclude a root,
+/* A ray that starts nearer to the surface than this plus the point's own error is as good as one that starts on it: 128 times the rounding of the new origin (tracer_leave), and the distance within which the last resort cannot exclude a root,
  * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
  * box, and what a copy is loose by; doubled because the planes are oblique. */
 #define CLEARANCE(scale, loose, magnitude) \

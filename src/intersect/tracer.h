@@ -18,7 +18,7 @@ struct kernel {
   const char *name;
   /* returns, as bits, the rays whose answers are not certain and might differ in another packet */
   unsigned (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
-  /* returns whether some rays are to be asked again alone */
+  /* returns whether some rays are to be traced again alone */
   bool (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
   /* returns whether there was enough memory */
   bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
@@ -46,7 +46,7 @@ struct made_leaf {
   struct leaf_room is;
 };
 
-/* All that is found on the rays of a packet, if all hits are asked for (lanes/gather.h). */
+/* All that is found on the rays of a packet, if all hits are wanted (lanes/gather.h). */
 struct gather {
   struct growing roots;   /* struct gathered, as the lanes took them */
   struct growing open;    /* struct gathered_region: what the lanes left open */
@@ -56,13 +56,13 @@ struct gather {
   bool failed;            /* memory was short */
 };
 
-/* The budget of a ray, in units of one box of the hierarchy looked at, some 25 ns. All work is charged to it, by the
+/* The budget of a ray, in units of one box of the hierarchy tested, some 25 ns. All work is charged to it, by the
  * costs below. A ray that has exhausted it goes no further: its answer is what is known by then, and grazing. The last
  * resort gets what the lanes leave of it. A choice: some 8 ms. */
 enum { RAY_BUDGET = 1 << 18 };
 
 /* In a packet, the leaves that reach a ray, and their order, depend on its neighbours; so would the point where its
- * budget ends. It gets an eighth there, and is asked again alone if that is not enough (intersect.c). */
+ * budget ends. It gets an eighth there, and is traced again alone if that is not enough (intersect.c). */
 enum { BUDGET_IN_COMPANY = 3 };
 
 /* Making a leaf that is not kept; being tried on a leaf, once the slab test in doubles passes; the planes' polynomials;
@@ -76,12 +76,12 @@ struct tracer {
   const struct kernel *kernel;
   struct intersect_counts counts;
   uint64_t epoch;
-  struct warm_leaf *warm;            /* one for each leaf; NULL if no patch asks for it */
+  struct warm_leaf *warm;            /* one for each leaf; NULL if no method uses them */
   struct made_leaf *made;            /* 2^MADE_BITS; NULL if leaves are kept, or made anew for each request */
   struct gather gather[PACKETS_MAX]; /* of packets side by side */
   struct growing hits;               /* struct hit: all lists of the last call of tracer_all */
   int budget;                        /* RAY_BUDGET; less in tests */
-  struct explainer *explainer;       /* explain.c; NULL if nobody asks */
+  struct explainer *explainer;       /* explain.c; NULL for none */
   const atomic_int *stop;            /* tracer_stop_at; or NULL */
 };
 
@@ -90,14 +90,14 @@ static inline bool tracer_stopped(const struct tracer *tracer)
   return tracer->stop && atomic_load_explicit(tracer->stop, memory_order_relaxed) != 0;
 }
 
-/* intersect.c: a tracer in the caller's memory, without warm starts, whatever the scene asks for. */
+/* intersect.c: a tracer in the caller's memory, without warm starts, whatever the scene says. */
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
 
-/* Whether, of `count` rays together, those are asked again alone whose answers are not certain or would take much work.
+/* Whether, of `count` rays together, those are traced again alone whose answers are not certain or would take much work.
  * What the last resort finds out about a ray, and where its budget ends, depends on the leaves that came to it;
  * these depend on how soon the rays beside it made the walk find something nearer. Not with warm starts, which go from
- * ray to ray in any case, nor if nothing is proven, when all would be asked twice. */
-static inline bool tracer_asks_again(const struct tracer *tracer, size_t count)
+ * ray to ray in any case, nor if nothing is proven, when all would be traced twice. */
+static inline bool tracer_repeats(const struct tracer *tracer, size_t count)
 {
   return count > 1 && !tracer->warm && !tracer->model->unproven;
 }
@@ -106,10 +106,10 @@ static inline bool tracer_asks_again(const struct tracer *tracer, size_t count)
 struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room);
 
 /* intersect.c: frees what tracer_all has allocated, by memory_free, so on a thread with the same hooks. A tracer that
- * was never asked for all hits has nothing to free. */
+ * has never found all hits has nothing to free. */
 void tracer_end(struct tracer *tracer);
 
-/* The warm start of the leaf with this number in the tracer's model; NULL if the method asks for none. */
+/* The warm start of the leaf with this number in the tracer's model; NULL if the method uses none. */
 static inline struct solver_warm *tracer_warm(struct tracer *tracer, const struct method *method, int64_t leaf)
 {
   if (method->roots.start != START_PREVIOUS || !tracer->warm) return NULL;

@@ -16,7 +16,7 @@ enum channel_kind {
   CHANNEL_PATCH,  /* the patch's number, from 0; -1 on a miss */
   CHANNEL_NORMAL, /* unit normal facing the camera; 0 on a miss */
   CHANNEL_STATUS, /* enum channel_status */
-  /* The work of the scene's solver for the sample, over all leaves that its ray came to (intersect/explain.h). */
+  /* The work of the scene's solver for the sample, over all leaves that its ray came to (render/measure.h). */
   CHANNEL_ITERATIONS, /* of all roots */
   CHANNEL_ROOTS,      /* how many roots it found */
   CHANNEL_RESIDUAL,   /* eq 11's ratio |P|/delta of the root that is the hit; 0 on a miss */

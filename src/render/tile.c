@@ -5,6 +5,7 @@
 
 #include "geometry/vector.h"
 #include "render/camera.h"
+#include "render/measure.h"
 #include "render/shade.h"
 
 /* A pixel while its samples are gathered. */
@@ -15,7 +16,7 @@ struct pixel {
   bool lit;       /* one of them is not black */
   struct hit hit; /* of the middle sample, with its distance */
   double distance;
-  struct explained_numbers solver; /* if needed */
+  struct solver_numbers solver; /* if needed */
   double deviation;
 };
 
@@ -69,7 +70,7 @@ static void sample(const struct tile_job *job, struct tracer *tracer, struct tra
     camera_ray(&job->scene->camera, s, t, &rays[k]);
   }
   if (middle && channel_list_measures(&job->channels))
-    for (size_t k = 0; k < count; k++) tracer_measure(tracer, &rays[k], &hits[k], &pixels[k].solver);
+    for (size_t k = 0; k < count; k++) measure_ray(tracer, &rays[k], &hits[k], &pixels[k].solver);
   else tracer_closest(tracer, count, rays, hits);
   if (middle && certified != NULL) deviations(certified, count, rays, hits, pixels);
   shade_packet(job->scene, tracer, count, rays, hits, rgb);

@@ -11,7 +11,7 @@
 #include <stddef.h>
 
 #include "base/rectangle.h"
-#include "intersect/explain.h"
+#include "intersect/intersect.h"
 #include "render/channels.h"
 #include "scene/scene.h"
 

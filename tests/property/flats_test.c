@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "cmocka_test.h"
-#include "geometry/flats.h"
 #include "intersect/intersect.h"
 #include "property/world.h"
 
@@ -232,32 +231,4 @@ TEST(a_plane_costs_no_last_resort)
   }
   assert_true(tracer_counts(world.tracer)->escalated * 100 < SCENES * RAYS);
   world_close(&world);
-}
-
-TEST(planes_are_found)
-{
-  static const int axis[] = {0, 1, 1, 2, 1, 2};
-  struct random random = {SEED + 2};
-  world_net nets[6];
-  uint32_t plane[6];
-  struct flat_plane *planes;
-  flat_net(&random, 0, 0.5, nets[0]);
-  flat_net(&random, 1, 0.5, nets[1]);
-  flat_net(&random, 1, nextafter(0.5, 1), nets[2]);
-  flat_net(&random, 2, 0, nets[3]);
-  flat_net(&random, 1, 0.5, nets[4]);
-  flat_net(&random, 2, 0, nets[5]);
-  nets[4][3][2][0] = 0.5;
-  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &planes), STATUS_OK);
-  for (int p = 0; p < 6; p++) {
-    assert_true(plane[p] != 0 && planes[plane[p]].axis == axis[p] && planes[plane[p]].value == nets[p][1][2][axis[p]]);
-    for (int q = 0; q < p; q++) assert_int_equal(plane[p] == plane[q], (p == 4 && q == 1) || (p == 5 && q == 3));
-  }
-  free(planes);
-  nets[4][3][3][1] = nextafter(0.5, 1);
-  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &planes), STATUS_OK);
-  assert_true(plane[1] != 0 && plane[4] == 0);
-  free(planes);
-  assert_int_equal(flats_find(nets[4], sizeof nets[0], 1, plane, &planes), STATUS_OK);
-  assert_true(plane[0] == 0 && planes == NULL);
 }

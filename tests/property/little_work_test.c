@@ -76,11 +76,11 @@ TEST(of_lines_few_are_tried)
 
 /* ---- twins ---- */
 
-/* Patches that lie exactly on the first one take no work, however many there are: a ray has a small budget, and is certain
+/* Patches that lie exactly on the first one take no more work than their boxes: a ray has a small budget, and is certain
  * nevertheless. */
-TEST(of_twins_none_is_looked_at)
+TEST(of_twins_none_is_tried)
 {
-  enum { BUDGET = 1000 }; /* what the first one needs is some 500 */
+  enum { BUDGET = 1000 + 2 * NETS }; /* what the first one needs is some 500 */
   world_net nets[NETS];
   struct random random = {SEED + 8};
   struct world world;
@@ -200,62 +200,6 @@ TEST(next_to_poles_little_is_left_open_aslant)
   }
 }
 
-/* A ray that meets a pole exactly is left to the last resort; no resultant of any leaf there is formed first. */
-TEST(of_what_meets_a_pole_no_resultant_is_formed)
-{
-  enum { POLE_RAYS = 200 };
-  struct random random = {SEED + 4};
-  struct world world;
-  open_planet(1, &world);
-  for (int n = 0; n < POLE_RAYS; n++) {
-    struct ray ray = {.t_max = INFINITY};
-    for (int c = 0; c < 3; c++) {
-      ray.origin[c] = c == 1 ? random_between(&random, 1, 2) : random_between(&random, -1, 1);
-      ray.direction[c] = -ray.origin[c];
-    }
-    const struct hit hit = world_closest(&world, &ray);
-    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-    assert_true(hit.t == 1);
-  }
-  assert_true(tracer_counts(world.tracer)->escalated >= POLE_RAYS);
-  assert_int_equal(tracer_counts(world.tracer)->stages[STAGE_RESULTANT], 0);
-  world_close(&world);
-}
-
-/* The camera is exactly on a pole, or in a corner of several patches. Its start is known to be no hit, and rays that
- * go up from the ball's pole leave nothing open. If the start belongs to the ray, it is a hit. */
-TEST(from_poles_nothing_is_left_open)
-{
-  enum { POINT_RAYS = 300, BELOW_AT_LEAST = POINT_RAYS / 10 };
-  static const double points[][3] = {{0, 0, 0}, {1, -1, 0}, {0, -1, -1}}, middle[3] = {0, -1, 0};
-  struct random random = {SEED + 2};
-  struct world world;
-  open_planet(1, &world);
-  for (size_t k = 0; k < sizeof points / sizeof points[0]; k++) {
-    unsigned below = 0;
-    for (int n = 0; n < POINT_RAYS; n++) {
-      struct ray ray = {.t_max = INFINITY};
-      double up = 0;
-      for (int c = 0; c < 3; c++) {
-        ray.origin[c] = points[k][c], ray.direction[c] = random_between(&random, -1, 1);
-        up += ray.direction[c] * (points[k][c] - middle[c]);
-      }
-      if (fabs(up) < 0.02) continue;
-      const uint64_t open = tracer_counts(world.tracer)->escalated;
-      const struct hit hit = world_closest(&world, &ray);
-      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-      assert_int_equal(hit.patch == HIT_NONE, up > 0);
-      if (k == 0) assert_true(up < 0.2 || tracer_counts(world.tracer)->escalated == open);
-      assert_true(up > 0 || hit.t > 0.01);
-      below += up < 0;
-      ray.t_min = -0.01;
-      assert_true(world_closest(&world, &ray).t == 0);
-    }
-    assert_in_range(below, BELOW_AT_LEAST, POINT_RAYS);
-  }
-  world_close(&world);
-}
-
 /* A quarter of a cone whose inner control points coincide with its ends; its tip is at 0. */
 static void cone_quarter(size_t number, world_net net)
 {
@@ -264,32 +208,6 @@ static void cone_quarter(size_t number, world_net net)
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++)
       net[i][j][0] = i / 2 * x * arc[j][0], net[i][j][1] = -(i / 2), net[i][j][2] = i / 2 * z * arc[j][1];
-}
-
-/* No Jacobian is regular at the tip. Rays that start there and go up, or down inside the cone, are nevertheless
- * known to leave it. */
-TEST(from_a_tip_without_handles_nothing_is_left_open)
-{
-  enum { TIP_RAYS = 300, LEAVE_AT_LEAST = TIP_RAYS / 2 };
-  struct random random = {SEED + 3};
-  world_net nets[4];
-  struct world world;
-  for (size_t n = 0; n < 4; n++) cone_quarter(n, nets[n]);
-  world_open(&world, nets, 4, NULL);
-  unsigned left = 0;
-  for (int n = 0; n < TIP_RAYS; n++) {
-    struct ray ray = {.t_max = INFINITY};
-    double *d = ray.direction;
-    for (int c = 0; c < 3; c++) d[c] = random_between(&random, -1, 1);
-    if (fabs(d[1] + hypot(d[0], d[2])) < 0.3) continue;
-    const struct hit hit = world_closest(&world, &ray);
-    assert_int_equal(hit.patch, HIT_NONE);
-    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-    left++;
-  }
-  assert_in_range(left, LEAVE_AT_LEAST, TIP_RAYS);
-  assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
-  world_close(&world);
 }
 
 /* ---- in a plane ---- */

@@ -5,6 +5,7 @@
 #include "cmocka_test.h"
 #include "geometry/edges.h"
 #include "intersect/certificate.h"
+#include "intersect/lanes/nearest.h"
 #include "intersect/lanes/quadric.h"
 #include "property/world.h"
 #include "quad_root.h"
@@ -48,9 +49,10 @@ struct subject {
   const struct model *model;
   struct leaf *leaf;
   struct ray ray;
-  struct local_ray local;
+  struct packet packet;
+  struct ready ready;
+  int axis;
   struct truth truth;
-  double a[16], b[16];
 };
 
 /* Makes a border one point. */
@@ -60,6 +62,17 @@ static void collapse(world_net net, int border)
     const int at = edge_at(border, k), from = edge_at(border, 0);
     memcpy(net[at / 4][at % 4], net[from / 4][from % 4], sizeof net[0][0]);
   }
+}
+
+/* Takes the ray, alike on all lanes, to the leaf. */
+static void see(struct subject *s)
+{
+  struct ray rays[LANES];
+  for (int l = 0; l < LANES; l++) rays[l] = s->ray, rays[l].t_min = -INFINITY;
+  packet_begin(&s->packet, &s->ready, s->world.tracer, LANES, rays, false, s->world.tracer->budget);
+  packet_set_patch(&s->packet, &s->model->patches[s->leaf->patch], s->leaf->patch);
+  s->axis = packet_axis(&s->packet, 0);
+  truth_make(s->model, s->leaf, &s->ray, s->axis, &s->truth);
 }
 
 /* Calls `body` for `cases` rays at leaves of scenes near and far, cut into split x split leaves (0: the default
@@ -89,10 +102,7 @@ static void on_leaves(uint64_t seed, int split, bool poles, int cases,
         if (n % 5 == 0) /* from far away */
           for (int k = 0; k < 3; k++) s.ray.origin[k] -= ldexp(s.ray.direction[k], 26 - exponent);
         s.leaf = &s.model->leaves[random_bits(&random) % s.model->leaf_count];
-        double w[16];
-        local_ray_make(&s.model->patches[s.leaf->patch], &s.ray, &s.local);
-        local_ray_nets(&s.local, s.leaf->x, s.a, s.b, w);
-        truth_make(s.model, s.leaf, &s.ray, s.local.axis, &s.truth);
+        see(&s);
         body(&s, &random);
       }
       world_close(&s.world);
@@ -110,18 +120,22 @@ static double worst_moment, worst_net, worst_t;
 static void check_planes(struct subject *s, struct random *random)
 {
   (void)random;
+  const struct line *line = &s->packet.line[s->axis];
+  const int k = s->axis;
   for (int p = 0; p < 2; p++) {
-    const double *net = p ? s->b : s->a;
-    const double off = (double)quad_abs((quad)s->local.moment[p] - s->truth.moment[p]);
+    const double off = (double)quad_abs((quad)line->moment[p][0] - s->truth.moment[p]);
     worst_moment = worse(worst_moment, off / (UNIT_ROUNDOFF * (double)(quad_abs(s->truth.moment[p]) + 0x1p-60)));
-    for (int n = 0; n < 16; n++)
-      worst_net = worse(worst_net, (double)quad_abs((quad)net[n] - s->truth.net[p].c[n / 4][n % 4]) / s->local.error);
+    for (int n = 0; n < 16; n++) {
+      lanes net[2];
+      plane_values(line, k, s->leaf->x, n, &net[0], &net[1]);
+      worst_net = worse(worst_net,
+                        (double)quad_abs((quad)net[p][0] - s->truth.net[p].c[n / 4][n % 4]) / line->error[0]);
+    }
   }
   /* start and to_t give t of the local place 0. */
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
-  const int k = s->local.axis;
-  const quad t = ((quad)patch->center[k] - s->ray.origin[k]) / s->ray.direction[k];
-  const quad got = ((quad)s->local.depth.start[0] + s->local.depth.start[1]) * s->local.depth.to_t;
+  const quad t = ((quad)patch->center[k] - s->ray.origin[k]) / s->packet.direction[k][0];
+  const quad got = ((quad)line->start[0][0] + line->start[1][0]) * line->to_t[0];
   if (t != 0) worst_t = worse(worst_t, (double)(quad_abs(got - t) / quad_abs(t)) / UNIT_ROUNDOFF);
 }
 
@@ -193,22 +207,14 @@ static void aim(struct subject *s, struct random *random, double slant)
  * may also prove it alone on the leaf. */
 static void solve(struct subject *s, const double start[2], struct leaf_root *out)
 {
-  struct ray rays[LANES];
-  struct packet p;
-  struct ready ready;
-  for (int l = 0; l < LANES; l++) rays[l] = s->ray, rays[l].t_min = -INFINITY;
-  local_ray_make(&s->model->patches[s->leaf->patch], &s->ray, &s->local);
-  truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
-  const struct model_patch *patch = &s->model->patches[s->leaf->patch];
-  packet_begin(&p, &ready, s->world.tracer, LANES, rays, false, s->world.tracer->budget);
-  packet_set_patch(&p, patch, s->leaf->patch);
-  assert_int_equal(packet_axis(&p, 0), s->local.axis);
   const lanes at[2] = {lanes_all(start[0]), lanes_all(start[1])};
   const lane_mask all = lanes_all(0) == lanes_all(0);
-  newton_solve(&p, s->leaf, s->local.axis, at, all, out);
-  const struct candidate it = {.leaf = s->leaf, .patch = patch, .axis = s->local.axis, .line = &p.line[s->local.axis]};
+  see(s);
+  newton_solve(&s->packet, s->leaf, s->axis, at, all, out);
+  const struct candidate it = {
+    .leaf = s->leaf, .patch = &s->model->patches[s->leaf->patch], .axis = s->axis, .line = &s->packet.line[s->axis]};
   struct quadric_along along;
-  out->at.alone |= quadric_closes(&along, &it, out, quadric_along(&p, &it, all, &along));
+  out->at.alone |= quadric_closes(&along, &it, out, quadric_along(&s->packet, &it, all, &along));
 }
 
 static struct tally refined;
@@ -257,7 +263,7 @@ static struct tally fan_roots;
 static void check_fan(struct subject *s, struct random *random)
 {
   static const double slants[] = {2, 0.5, 0.2, 0.1};
-  if (s->leaf->pole == 0) return;
+  if (leaf_pole(&s->model->patches[s->leaf->patch], s->leaf) < 0) return;
   if (random_bits(random) % 4) aim(s, random, slants[random_bits(random) % 4]);
   const double start[2] = {random_between(random, -0.6, 0.6), random_between(random, -0.6, 0.6)};
   struct leaf_root root;
@@ -287,7 +293,8 @@ static double worst_residual, worst_place, worst_point, worst_tangent;
 static void row_lengths(const struct subject *s, quad u, quad v, double out[2])
 {
   const struct quad_jet a = quad_net_jet(&s->truth.net[0], u, v), b = quad_net_jet(&s->truth.net[1], u, v);
-  const double *slope = s->local.slope, inverse = (double)(1 / (a.du * b.dv - a.dv * b.du));
+  const lanes *line = s->packet.line[s->axis].slope;
+  const double slope[2] = {line[0][0], line[1][0]}, inverse = (double)(1 / (a.du * b.dv - a.dv * b.du));
   const double rows[2][2] = {{(double)b.dv, -(double)a.dv}, {-(double)b.du, (double)a.du}};
   for (int k = 0; k < 2; k++) {
     const double p = rows[k][0] * inverse, q = rows[k][1] * inverse, r = p * slope[0] + q * slope[1];
@@ -301,7 +308,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   struct leaf_root root;
   aim(s, random, slants[random_bits(random) % 4]);
   solve(s, middle, &root);
-  const int k = s->local.axis;
+  const int k = s->axis;
   quad u, v;
   if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts.final) return;
   const double *second = s->leaf->second;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
-#include "geometry/twins.h"
+#include "geometry/surfaces.h"
 #include "net_order.h"
 #include "intersect/intersect.h"
 #include "property/world.h"
@@ -57,12 +57,12 @@ static void twins_fill(struct pair *pair, struct random *random, world_net nets[
 static void twins_leave(struct pair *pair)
 {
   struct scene *all = &pair->scene[0], *few = &pair->scene[1];
-  bool again[MOST];
-  assert_int_equal(twins_find(all->patches, sizeof *all->patches, all->patch_count, again), STATUS_OK);
+  uint32_t surface[MOST];
+  assert_int_equal(surfaces_find(all->patches, sizeof *all->patches, all->patch_count, surface), STATUS_OK);
   for (size_t k = 0; k < all->patch_count; k++) {
     size_t n = 0;
     while (n < few->patch_count && !same_surface(few->patches[n].P, all->patches[k].P)) n++;
-    assert_int_equal(again[k], n < few->patch_count);
+    assert_int_equal((surface[k] & SURFACE_AGAIN) != 0, n < few->patch_count);
     pair->surface[k] = (uint32_t)n, pair->times[n] = n < few->patch_count ? pair->times[n] + 1 : 1;
     if (n < few->patch_count) continue;
     pair->first[n] = (uint32_t)k, few->patches[few->patch_count++] = all->patches[k];

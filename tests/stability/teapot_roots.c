@@ -65,18 +65,30 @@ static void target_destroy(struct target *target)
   intersector_destroy(target->intersector);
 }
 
+/* The nets of the ray's planes for a net x in the patch's frame. */
+static void ray_planes(const struct model_patch *patch, const struct ray *ray, const double x[3][16], double a[16],
+                       double b[16])
+{
+  const double *d = ray->direction;
+  const int k = dominant_axis(d);
+  for (int s = 0; s < 2; s++) {
+    const int i = (k + 1 + s) % 3;
+    const quad slope = (quad)d[i] / d[k];
+    const quad moment = ((quad)ray->origin[i] - patch->center[i] - slope * ((quad)ray->origin[k] - patch->center[k])) /
+                        patch->scale;
+    for (int c = 0; c < 16; c++) (s ? b : a)[c] = (double)(x[i][c] - moment - slope * x[k][c]);
+  }
+}
+
 /* The roots that the patch's own method finds on the whole patch. */
 static void find_roots(struct target *target, const struct ray *ray, struct method_roots *out)
 {
   const struct model *model = target->tracer->model;
   const struct leaf *leaf = &model->leaves[0];
-  struct local_ray local;
   struct leaf_form form;
   leaf_form_make(&model->patches[0], leaf, &form);
   struct method_planes planes = {.form = &form};
-  double w[16];
-  local_ray_make(&model->patches[0], ray, &local);
-  local_ray_nets(&local, form.own ? leaf->x : form.x, planes.a, planes.b, w);
+  ray_planes(&model->patches[0], ray, form.own ? leaf->x : form.x, planes.a, planes.b);
   method_find(model->patches[0].method, &planes, INT_MAX, NULL, out, NULL);
 }
 

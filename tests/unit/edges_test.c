@@ -1,5 +1,6 @@
 /* Shared borders of patches. */
 #include "geometry/edges.h"
+#include "geometry/surfaces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,18 +125,18 @@ TEST(more_than_two_at_one_border_are_none)
   }
 }
 
-/* Patches that are left out have no neighbours, and do not hide those of others. */
-TEST(those_left_out_are_alone)
+/* Patches that lie on earlier ones have no neighbours, and do not hide those of others. */
+TEST(those_there_again_are_alone)
 {
   struct random random = {SEED + 6};
-  static const bool left_out[3] = {false, true, false};
+  static const uint32_t surface[3] = {1, 1 | SURFACE_AGAIN, 0};
   net P[3];
   struct edge_neighbour n[12];
   random_net(&random, P[0]);
   memcpy(P[1], P[0], sizeof P[1]);
   random_net(&random, P[2]);
   glue(P[0], 1, P[2], 3, true);
-  assert_int_equal(edges_match(P, sizeof *P, 3, left_out, NULL, n), STATUS_OK);
+  assert_int_equal(edges_match(P, sizeof *P, 3, surface, NULL, n), STATUS_OK);
   assert_pair(n, 0, 1, 2, 3, true);
   assert_int_equal(alone(n, 3), 10);
 }

@@ -1,4 +1,4 @@
-/* The roots of r by the method that the scene asks for, on all lanes of a packet at once or one by one, and what is
+/* The roots of r by the scene's method, on all lanes of a packet at once or one by one, and what is
  * proven of them.
  *
  * Compiled once per instruction set.
@@ -57,10 +57,7 @@ static void all_roots_near(const struct candidate *it, const struct roots_lanes 
       out->count = out->count > counts[lane] ? out->count : counts[lane];
     }
   }
-  for (int k = 0; k < out->count; k++) {
-    const lanes at = start_within(kept[k]), other = start_within(resultant_eliminated(it, at));
-    out->u[k] = it->form.v_kept ? other : at, out->v[k] = it->form.v_kept ? at : other;
-  }
+  for (int k = 0; k < out->count; k++) starts_set(it, k, kept[k], out);
 }
 
 /* Refines the roots by Newton's method, and proves them. Returns the lanes that are decided: one root is alone in the
@@ -95,17 +92,21 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
   return resultant_counts(it) ? alone | ((found > 0) & (within == it->variations)) : alone;
 }
 
-/* The lanes of `open` where boxes prove these roots to be all of the leaf's. */
+/* The lanes of `open` where pieces prove these roots to be all of the leaf's. Those without any are not tried by the
+ * default method: there the ray nearly touches the leaf, and pieces would do one time in ten. */
 static lane_mask all_roots_cover(struct packet *p, const struct candidate *it, const struct all_roots *all,
                                  lane_mask open)
 {
   struct known_root known[TRIED_ROOTS];
+  lane_mask some = {0};
   int count = 0;
   for (int k = 0; k < all->count; k++) {
     const struct newton_root *r = &all->root[k].at;
     const lane_mask proven = all->proven[k] & open;
+    some |= proven;
     if (lanes_any(proven)) known[count++] = (struct known_root){r, proven};
   }
+  if (it->patch->lanes == SOLVER_LANES_SIGNS) open &= some;
   return cover_proves(p, it, count, known, COVER_HALVINGS, open, NULL);
 }
 
@@ -158,8 +159,14 @@ lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask acti
 {
   struct root_starts starts = {0};
   struct all_roots all;
-  if (it->patch->lanes != SOLVER_LANES_NONE) all_roots_find(p, it, active, &starts);
-  else method_starts(p, it, active, &starts);
+  if (it->patch->lanes == SOLVER_LANES_SIGNS) {
+    p->tracer->counts.roots_found += lanes_count(active);
+    polygon_starts(it, active, &starts);
+  } else if (it->patch->lanes != SOLVER_LANES_NONE) {
+    all_roots_find(p, it, active, &starts);
+  } else {
+    method_starts(p, it, active, &starts);
+  }
   const lane_mask decided = all_roots_prove(p, it, &starts, &all);
   all_roots_offer(p, it, &all, p->any ? active : decided);
   const lane_mask open = active & ~decided & p->live;

@@ -1,5 +1,5 @@
 /* A bundle: packets whose rays go through a tree together, their view of it, whether their budgets last, and the leaves
- * that they put off.
+ * that they defer.
  *
  * Internal to src/intersect/lanes: walk.c includes it.
  */
@@ -42,27 +42,27 @@ __attribute__((noinline)) static void bundle_exhaust(struct bundle *b, unsigned 
   bundle_update(b);
 }
 
-/* Charges boxes that the rays have looked at together. Each ray is charged for all of them, for those that it would look
- * at alone are among them. */
-static void bundle_looked(struct bundle *b, int64_t looks)
+/* Charges boxes that the rays have tested together. Each ray is charged for all of them, because those that it would
+ * test alone are among them. */
+static void bundle_charge(struct bundle *b, int64_t boxes)
 {
   unsigned exhausted = 0;
   for (int h = 0; h < b->packets; h++) {
-    packet_charge(&b->packet[h], looks + (lane_mask){0});
+    packet_charge(&b->packet[h], boxes + (lane_mask){0});
     exhausted |= lanes_bits(b->packet[h].postponed->left < 0) << h * LANES;
   }
   if (exhausted & b->live) bundle_exhaust(b, exhausted & b->live);
 }
 
-/* Charges a box that one ray looks at. Returns whether its budget lasts. */
-LANES_INLINE bool ray_looks(struct bundle *b, unsigned lane)
+/* Charges a box that one ray tests. Returns whether its budget lasts. */
+LANES_INLINE bool ray_charge(struct bundle *b, unsigned lane)
 {
   if (--b->packet[lane / LANES].postponed->left[lane % LANES] >= 0) return true;
   bundle_exhaust(b, 1u << lane);
   return false;
 }
 
-/* Sets whether leaves are put off from here on. */
+/* Sets whether leaves are deferred from here on. */
 LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
 {
   b->later.count = 0;
@@ -70,8 +70,8 @@ LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
     b->packet[h].later = later ? &b->later : NULL, b->packet[h].first_ray = (unsigned)h * LANES;
 }
 
-/* Puts the leaf off for packets all of whose rays start in its slab. Returns the rays to be tried on it now. */
-LANES_INLINE unsigned bundle_put_off(struct bundle *b, uint32_t index, unsigned rays)
+/* Defers the leaf for packets all of whose rays start in its slab. Returns the rays to be tried on it now. */
+LANES_INLINE unsigned bundle_defer(struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
   if (!b->packet[0].later || index >= model->leaf_count) return rays;

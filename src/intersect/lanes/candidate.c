@@ -24,14 +24,14 @@ static bool starts_bilinear(const struct candidate *it)
   return turn_of(it->leaf->second) <= BENT_TURN * real_min(first[0], first[1]);
 }
 
-/* Puts the leaf off, if leaves are. Returns the lanes that go on now. */
-static lane_mask candidate_put_off(struct packet *p, const struct candidate *it, lane_mask open)
+/* Defers the leaf, if leaves are deferred. Returns the lanes that go on now. */
+static lane_mask candidate_defer(struct packet *p, const struct candidate *it, lane_mask open)
 {
   const bool later = p->later && later_add(p->later, (uint32_t)it->number, lanes_bits(open) << p->first_ray);
   return later ? (lane_mask){0} : open;
 }
 
-/* A scene with `polish off` asks for the roots as its solver finds them. There only the slab closes a leaf before
+/* A scene with `polish off` wants the roots as its solver finds them. There only the slab closes a leaf before
  * that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
 {
@@ -47,26 +47,20 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     if (!lanes_any(open)) return;
     open = stage_quadric(p, it, open);
     if (!lanes_any(open)) return;
-    open = candidate_put_off(p, it, open);
+    open = candidate_defer(p, it, open);
     if (!lanes_any(open)) return;
   }
   packet_charge(p, open & COST_PLANES);
   entered[STAGE_PLANES] += lanes_count(open);
   planes_set(it);
-  if (patch->method->polish) {
-    const lane_mask met = open & planes_meet_pole(it);
-    if (lanes_any(met)) packet_postpone(p, it, met);
-    open = stage_cover(p, it, open & ~met);
-  }
+  if (patch->method->polish) open = stage_cover(p, it, open);
   if (!lanes_any(open)) return;
   packet_charge(p, open & COST_RESULTANT);
   entered[STAGE_RESULTANT] += lanes_count(open);
   open = stage_resultant(it, open);
   if (!lanes_any(open)) return;
   entered[STAGE_ROOTS] += lanes_count(open);
-  if (patch->lanes == SOLVER_LANES_SIGNS) open = stage_first_root(p, it, open);
-  else if (patch->method->polish) open = stage_all_roots(p, it, open);
-  else open = stage_bare_roots(p, it, open);
+  open = patch->method->polish ? stage_all_roots(p, it, open) : stage_bare_roots(p, it, open);
   if (lanes_any(open)) packet_postpone(p, it, open);
 }
 
@@ -75,50 +69,55 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 static void candidate_explain(const struct packet *p, const struct candidate *it, bool blind)
 {
   const struct best *best = &p->best;
-  struct explained_ray told = {.leaf = it->leaf,
-                               .patch = it->patch,
-                               .first_patch = p->outer ? p->copy->first_patch : 0,
-                               .shift = p->outer ? p->shift[0] : 0,
-                               .blind = blind,
-                               .proven = best->certain[0] != 0,
-                               .t = best->t[0],
-                               .u = best->u[0],
-                               .v = best->v[0],
-                               .radius_u = best->radius_u[0],
-                               .radius_v = best->radius_v[0]};
-  for (int k = 0; k < 3; k++) told.ray.origin[k] = p->origin[k][0], told.ray.direction[k] = p->direction[k][0];
-  explain_after(p->tracer, &told);
+  struct explained_ray report = {.leaf = it->leaf,
+                                 .patch = it->patch,
+                                 .first_patch = packet_patch(p, it->leaf) - it->leaf->patch,
+                                 .axis = it->axis,
+                                 .to_t = it->line->to_t[0],
+                                 .shift = p->outer ? p->shift[0] : 0,
+                                 .blind = blind,
+                                 .proven = best->certain[0] != 0,
+                                 .t = best->t[0],
+                                 .u = best->u[0],
+                                 .v = best->v[0],
+                                 .radius_u = best->radius_u[0],
+                                 .radius_v = best->radius_v[0]};
+  for (int k = 0; k < 2; k++)
+    report.slope[k] = it->line->slope[k][0], report.moment[k] = it->line->moment[k][0],
+    report.start[k] = it->line->start[k][0];
+  explain_after(p->tracer, &report);
 }
 
 /* If the plane polynomials of a patch are known no better than this, because the ray starts far away, double precision
  * proves no root, and the last resort examines most of the patch in any case. */
 #define BLIND 0x1p-5
 
-/* Lanes whose ray does not come to the plane: it goes away from it, runs beside it, or starts in it and leaves it,
- * where that is no hit. */
-LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_plane *plane)
+/* The lanes of `active` on which the leaf may have a hit that counts. None if its patch lies exactly on an earlier one; not
+ * those that have met an earlier patch of its surface; and if that is a plane, not those whose ray goes away from it, or
+ * starts in it and leaves it. */
+LANES_INLINE lane_mask before_on_surface(const struct packet *p, const struct leaf *leaf, lane_mask active)
 {
-  const lanes above = p->origin[plane->axis] - plane->value, up = p->direction[plane->axis];
-  return ((above > 0) & (up >= 0)) | ((above < 0) & (up <= 0)) | packet_leaves_plane(p, plane);
-}
-
-/* The lanes of `active` on which the ray may meet the patch, if that lies in a plane across an axis, and not behind the
- * nearest hit so far in that plane. */
-LANES_INLINE lane_mask before_in_plane(const struct packet *p, uint32_t patch, lane_mask active)
-{
-  const struct flat_plane *plane = model_flat_plane(p->model, patch);
-  if (!plane) return active;
-  active &= ~leaves_plane(p, plane);
+  const struct packet *scene = packet_scene(p);
+  const struct model *model = scene->model;
+  const uint32_t patch = packet_patch(p, leaf), surface = model->surface ? model->surface[patch] : 0;
+  if (surface == 0) return active;
+  const int axis = SURFACE_AXIS(surface);
+  if (axis >= 0) {
+    const lanes above = scene->origin[axis] - model->scene->patches[patch].P[0][0][axis], up = scene->direction[axis];
+    active &= ((above > 0) & (up < 0)) | ((above < 0) & (up > 0)) | ((above == 0) & (up == 0));
+  }
+  if (p->gather) return active;
+  if (surface & SURFACE_AGAIN) return (lane_mask){0};
   if (!p->oriented) return active;
   const lane_mask number = (int64_t)patch + (lane_mask){0}, behind = active & (p->best.patch < number);
-  return lanes_any(behind) ? active & ~one_plane(p->model, number, p->best.patch, behind) : active;
+  return lanes_any(behind) ? active & ~one_surface(model, number, p->best.patch, behind) : active;
 }
 
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active)
 {
   struct candidate it;
-  active = before_in_plane(p, leaf->patch, active);
+  active = before_on_surface(p, leaf, active);
   if (!lanes_any(active)) return;
   it.leaf = leaf, it.patch = patch, it.number = number;
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);

@@ -44,23 +44,16 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
 /* planes.c: a lower bound on the t at which the ray enters the box along the leaf. */
 lanes slab_begin(const struct packet *p, const struct candidate *it);
 
-/* planes.c: returns the lanes of `open` whose ray starts exactly in a vertex of the patch, a corner or a pole, and meets
- * no other point of the leaf. At a pole, or a corner whose handles have no length, no Jacobian is regular. */
-lane_mask leaves_vertex(const struct packet *p, const struct candidate *it, lane_mask open);
-
 /* bilinear.c: finds the root of the leaf's bilinear part by a resultant of degree 2, and refines it by Newton's method
  * on the leaf. A lane stays open if the ray is so slanted that the root is not proven to be the only one. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
 /* quadric.c: closes lanes where the leaf's quadric proves that there is no root, or none besides that of
- * stage_bilinear. The default method also seeks one more root, and closes lanes where these two are all. */
+ * stage_bilinear. */
 lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open);
 
 /* planes.c: sets the plane polynomials a and b. */
 void planes_set(struct candidate *it);
-
-/* planes.c: the lanes whose ray meets the leaf's pole, as far as doubles tell. No later stage decides these. */
-lane_mask planes_meet_pole(const struct candidate *it);
 
 /* cover.c: closes lanes where pieces that cover the leaf show that it has no root, by the default method also none
  * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces with
@@ -71,11 +64,7 @@ lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
  * that has no sign variation. */
 lane_mask stage_resultant(struct candidate *it, lane_mask open);
 
-/* resultant.c: finds one root of r from its control polygon, and another one if that is not alone. Closes lanes where
- * these are proven to be all. */
-lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask open);
-
-/* all_roots.c: finds the roots of r by the method that the scene asks for. Closes lanes where they are proven to be
+/* all_roots.c: finds the roots of r by the scene's method. Closes lanes where they are proven to be
  * all. */
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
 
@@ -94,15 +83,18 @@ struct root_starts {
   lane_mask has[TRIED_ROOTS];
 };
 
-/* one_by_one.c: takes start values from the roots of r by a method that does not run on lanes. *out is empty before. */
+/* resultant.c: sets the k-th start values from a value of the kept parameter, near a root of r. */
+void starts_set(const struct candidate *it, int k, lanes kept, struct root_starts *out);
+
+/* resultant.c: takes start values from where the control polygon of r crosses zero last and, if r may have several roots,
+ * first. *out is empty before. */
+void polygon_starts(const struct candidate *it, lane_mask open, struct root_starts *out);
+
+/* one_by_one.c: the same from the roots of r by a method that does not run on lanes. */
 void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out);
 
 /* one_by_one.c: without polish the roots of r are the answer, proven or not. */
 lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
-
-/* A ray whose planes' polynomials are both less than this many times their error at a pole meets it, as far as doubles
- * tell. */
-#define POLE_MET 4
 
 /* A patch lies within |w| < 1 in its frame; a ray is not examined beyond this. */
 #define FRAME_END 2.0
@@ -135,9 +127,6 @@ LANES_INLINE void plane_values(const struct line *line, int axis, const double x
 
 /* planes.c: x_k of the points (u,v). */
 lanes plane_depth(const struct candidate *it, lanes u, lanes v);
-
-/* resultant.c: the eliminated parameter at a root of r. */
-lanes resultant_eliminated(const struct candidate *it, lanes kept);
 
 /* Whether r is made of the leaf's own polynomials, and so has a root for each of the leaf's. Polynomials of a lower
  * degree are off by the excess. Moved by a constant they have any one root of the leaf as their root, but two roots

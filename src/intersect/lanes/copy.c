@@ -1,29 +1,15 @@
 /* A packet in the coordinates of an object, and back. Compiled once per instruction set and without contraction.
  *
  * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, and then taken to the
- * object's coordinates. All that is in about twice the precision, or more if the ray starts very far away, so the ray
- * is right to its last places near the object. copies.c bounds the rounding that is left, model_object.error.
+ * object's coordinates. All that is in about twice the precision, so the ray is right to its last places near the object. copies.c bounds the rounding that is left, model_object.error.
  */
 #include "base/double_lanes.h"
 #include "intersect/lanes/nearest.h"
 
 /* For a start up to this many times the object's error away, in the object's coordinates, twice the precision leaves
- * less unknown than that error: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). */
+ * less unknown than that error: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). Rays from
+ * farther away, some 2^38 objects, get no proven answer from the copy. */
 #define FARTHEST_WAY 0x1p88
-
-/* Sets these lanes' starts and shifts as in local_ray.h. Out of line, because it is rare. */
-__attribute__((noinline)) static void enter_from_far(struct packet *inner, lane_mask far)
-{
-  for (unsigned bits = lanes_bits(far); bits; bits &= bits - 1) {
-    const int l = __builtin_ctz(bits);
-    struct ray ray;
-    double at[3];
-    for (int k = 0; k < 3; k++)
-      ray.origin[k] = inner->outer->origin[k][l], ray.direction[k] = inner->outer->direction[k][l];
-    inner->shift[l] = local_ray_enter_copy(&ray, inner->copy, at);
-    for (int k = 0; k < 3; k++) inner->origin[k][l] = at[k];
-  }
-}
 
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner)
 {
@@ -58,7 +44,7 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
   inner->net_error = copy->object->error;
   packet_untried(inner);
   const lane_mask far = inner->live & ~(lanes_abs(inner->shift) * inner->longest <= FARTHEST_WAY * inner->net_error);
-  if (lanes_any(far)) enter_from_far(inner, far);
+  if (lanes_any(far)) packet_exhaust(inner, lanes_bits(far));
   const lanes shift = inner->shift;
   inner->t_min = outer->t_min - shift, inner->t_max = outer->t_max - shift;
   inner->t_far = (outer->t_far - shift) + 4 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_far));
@@ -84,7 +70,7 @@ void packet_leave(struct packet *inner)
   const lane_mask hits = found->patch != NO_PATCH;
   lane_mask rival = hits & (lanes_abs(t - outer->best.t) <= (far - t) + (outer->t_far - outer->best.t)), tied = {0};
   if (lanes_any(rival)) {
-    tied = one_plane(outer->model, found->patch, outer->best.patch, rival), rival &= ~tied;
+    tied = one_surface(outer->model, found->patch, outer->best.patch, rival), rival &= ~tied;
     packet_postpone_best(inner, rival);
   }
   const lane_mask after = best_after(&outer->best, t, found->patch, found->leaf);

@@ -37,6 +37,7 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
 {
   struct piece stack[COVER_HALVINGS + 2], *leaf = &stack[0];
   struct piece_ray ray = {.leaf = it->leaf, .count = count, .roots = roots};
+  const int pole = leaf_pole(it->patch, it->leaf);
   lanes from, to, off;
   /* up to t_max and not the nearest hit so far, or answers would depend on the way through the hierarchy */
   ray_ends(p, it, p->t_max, &from, &to, &off);
@@ -48,7 +49,7 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
     for (int n = 0; n < 16; n++)
       leaf->f[0].c[n / 4][n % 4] = it->a[n][lane], leaf->f[1].c[n / 4][n % 4] = it->b[n][lane];
     for (int k = 0; k < 2; k++) ray.size[k] = net_size(&leaf->f[k]), ray.error[k] = it->line->error[lane];
-    if (it->leaf->pole) piece_divide(&ray, leaf);
+    if (pole >= 0) piece_divide(&ray, pole, leaf);
     ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
     double middle[2];
     int splits;
@@ -61,8 +62,10 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
   return open;
 }
 
-lane_mask cover_two(struct packet *p, const struct candidate *it, const struct leaf_root *first,
-                    const struct leaf_root *second, lane_mask open)
+/* Offers the two roots, as far as they are proven and distinct, on the lanes of `open` where they are all, and returns
+ * these. Lanes where neither is proven are not tried. */
+static lane_mask cover_two(struct packet *p, const struct candidate *it, const struct leaf_root *first,
+                           const struct leaf_root *second, lane_mask open)
 {
   const struct newton_root *one = &first->at, *two = &second->at;
   const lane_mask same = one->exists & roots_meet(one, two);

@@ -23,10 +23,4 @@ struct known_root {
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2]);
 
-/* Offers the two roots, as far as they are proven and distinct, on the lanes of `open` where they are all, and returns
- * these. Lanes where neither is proven are not tried: there the ray nearly touches the leaf, and pieces would do one
- * time in ten. */
-lane_mask cover_two(struct packet *p, const struct candidate *it, const struct leaf_root *first,
-                    const struct leaf_root *second, lane_mask open);
-
 #endif

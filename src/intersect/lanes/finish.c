@@ -53,33 +53,19 @@ static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
     .patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane], .t = best->t[lane]};
 }
 
-/* Drops regions of later patches in the plane of that root's patch: the ray meets them at the same t. They are open
- * only where they came first (candidate.c, before_in_plane). */
-static void leave_out_behind(struct exact_case *asked, uint32_t first)
-{
-  const uint32_t plane = model_plane(asked->model, first);
-  if (plane == 0) return;
-  size_t kept = 0;
-  for (size_t k = 0; k < asked->region_count; k++) {
-    const uint32_t patch = asked->regions[k].patch;
-    if (patch <= first || model_plane(asked->model, patch) != plane) asked->regions[kept++] = asked->regions[k];
-  }
-  asked->region_count = kept;
-}
-
 /* Has the last resort decide the lane. Returns whether the answer is written; otherwise it is now the lane's best
  * root. */
 static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 {
   struct best *best = &p->best;
-  struct exact_case asked = lane_case(p, lane);
+  struct exact_case wanted = lane_case(p, lane);
   const bool hit = best->patch[lane] != NO_PATCH;
   const struct exact_root known = lane_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
-  if (hit && best->certain[lane]) asked.known = &known, leave_out_behind(&asked, known.patch);
-  else if (hit) asked.maybe = &maybe;
+  if (hit && best->certain[lane]) wanted.known = &known;
+  else if (hit) wanted.maybe = &maybe;
   struct exact_decision decision;
-  exact_closest(&asked, &decision);
+  exact_closest(&wanted, &decision);
   if (!decision.sure) best->doubt[lane] = -1;
   struct exact_root *root = &decision.root;
   if (decision.verdict == EXACT_MISS) {
@@ -90,7 +76,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
     exact_maybe_hit(p->model, &p->rays[lane], &decision.maybe, out);
     return true;
   }
-  if (!root->sharp && asked.known && root->patch == known.patch && root->u == known.u && root->v == known.v)
+  if (!root->sharp && wanted.known && root->patch == known.patch && root->u == known.u && root->v == known.v)
     return false;
   exact_root_hit(p->model, &p->rays[lane], root, !(packet_doubt(p) >> lane & 1), out);
   return true;
@@ -113,10 +99,10 @@ unsigned finish_occluded(const struct packet *p)
   unsigned hit = lanes_bits(p->best.patch != NO_PATCH) | packet_cut_off(p);
   for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    const struct exact_case asked = lane_case(p, lane);
-    const uint64_t before = *asked.work;
-    if (exact_occluded(&asked)) hit |= 1u << lane;
-    if (*asked.work - before >= asked.limit) p->postponed->exhausted |= 1u << lane;
+    const struct exact_case wanted = lane_case(p, lane);
+    const uint64_t before = *wanted.work;
+    if (exact_occluded(&wanted)) hit |= 1u << lane;
+    if (*wanted.work - before >= wanted.limit) p->postponed->exhausted |= 1u << lane;
   }
   return hit;
 }

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/real.h"
+
 void gather_start(struct packet *p, struct gather *gather)
 {
   if (!p->oriented) packet_orient(p);
@@ -145,13 +147,13 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
                                       .taken = (int64_t)k};
     (void)exact_list_add(list, &found); /* on failure, list->failed is set */
   }
-  const struct exact_case asked = {.model = p->model,
-                                   .ray = &p->rays[lane],
-                                   .regions = gather->regions.at,
-                                   .region_count = gather->regions.count,
-                                   .work = &p->tracer->counts.work,
-                                   .limit = packet_exact_limit(p, lane)};
-  const bool sure = exact_all(&asked, list);
+  const struct exact_case wanted = {.model = p->model,
+                                    .ray = &p->rays[lane],
+                                    .regions = gather->regions.at,
+                                    .region_count = gather->regions.count,
+                                    .work = &p->tracer->counts.work,
+                                    .limit = packet_exact_limit(p, lane)};
+  const bool sure = exact_all(&wanted, list);
   gather->failed |= list->failed;
   return sure;
 }
@@ -174,18 +176,6 @@ static struct hit *add_hits(struct packet *p, size_t count)
   return hits;
 }
 
-/* Sorts root k by patch into the roots from `first` on, with which it shares one t. Returns false unless all of them
- * are in one plane across an axis, and each is of another patch. */
-static bool place_in_plane(const struct model *model, const struct gathered *roots[], size_t first, size_t k)
-{
-  const struct gathered *here = roots[k];
-  const uint32_t plane = model_plane(model, here->hit.patch);
-  if (plane == 0 || plane != model->plane[roots[first]->hit.patch]) return false;
-  for (; k > first && here->hit.patch < roots[k - 1]->hit.patch; k--) roots[k] = roots[k - 1];
-  roots[k] = here;
-  return k == first || here->hit.patch != roots[k - 1]->hit.patch;
-}
-
 /* Adds the lane's hits to the tracer's. Returns the first of them. */
 static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathered *roots[], size_t count,
                              struct hit_list *out)
@@ -193,13 +183,10 @@ static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathe
   struct gather *gather = p->gather;
   bool certain = !p->model->unproven && !p->best.doubt[lane], tie = false;
   double reach = -INFINITY;
-  size_t first = 0; /* of those whose errors overlap */
   for (size_t k = 0; k < count; k++) {
-    const double t = t_of(roots[k]), error = error_of(roots[k]), far = t + error;
-    certain &= roots[k]->certain;
-    if (t - error > reach) first = k;
-    else tie |= !place_in_plane(p->model, roots, first, k);
-    reach = far > reach ? far : reach;
+    const double t = t_of(roots[k]), error = error_of(roots[k]);
+    certain &= roots[k]->certain, tie |= t - error <= reach;
+    reach = real_max(t + error, reach);
   }
   gather->regions.count = 0;
   if (gather->open.count > 0) collect_regions(gather, lane);

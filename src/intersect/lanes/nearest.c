@@ -67,39 +67,14 @@ static void postpone(struct packet *p, const struct exact_region *region, lanes 
   }
 }
 
-/* The lanes of `open` whose ray starts in the plane across an axis that the patch lies in, leaves it, and starts beside
- * the patch's box: they meet nothing of the patch. */
-static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask open)
-{
-  const struct flat_plane *plane = model_flat_plane(p->model, patch);
-  if (!plane) return (lane_mask){0};
-  open &= packet_leaves_plane(p, plane);
-  if (!lanes_any(open)) return open;
-  struct bvh_box box = BVH_EMPTY;
-  box_add_net(&box, p->model->scene->patches[patch].P);
-  lane_mask inside = open;
-  for (int k = 0; k < 3; k++) inside &= (p->origin[k] >= box.lo[k]) & (p->origin[k] <= box.hi[k]);
-  return open & ~inside;
-}
-
 void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open)
 {
-  open &= ~leaves_beside(p, it->leaf->patch, open);
-  if (lanes_any(open)) open &= ~leaves_vertex(p, it, open);
-  if (!lanes_any(open)) return;
   const struct leaf *leaf = it->leaf;
   const struct exact_region region = {.leaf = p->outer || !p->model->leaves ? NULL : leaf,
-                                      .patch = leaf->patch + (p->outer ? p->copy->first_patch : 0),
+                                      .patch = packet_patch(p, leaf),
                                       .column = {leaf->column_u, leaf->column_v},
                                       .span = {1, 1}};
   postpone(p, &region, slab_begin(p, it), open);
-}
-
-/* The column of `split` that a parameter is in, or the nearest one. */
-static uint16_t column_at(double at, unsigned split)
-{
-  const double column = floor(at * split);
-  return (uint16_t)(column < 0 ? 0 : column < split ? column : split - 1);
 }
 
 void packet_postpone_best(struct packet *p, lane_mask open)
@@ -107,13 +82,8 @@ void packet_postpone_best(struct packet *p, lane_mask open)
   const struct best *best = &p->best;
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    const double at[2] = {best->u[lane], best->v[lane]}, radius[2] = {best->radius_u[lane], best->radius_v[lane]};
     struct exact_region region = {.patch = (uint32_t)best->patch[lane]};
-    for (int k = 0; k < 2; k++) {
-      const unsigned split = p->outer->model->cuts[region.patch].split[k];
-      region.column[k] = column_at(at[k] - radius[k], split);
-      region.span[k] = (uint16_t)(column_at(at[k] + radius[k], split) - region.column[k] + 1);
-    }
+    memcpy(region.span, p->outer->model->cuts[region.patch].split, sizeof region.span);
     postpone(p, &region, best->t - (p->t_far - best->t), lanes_mask(1u << lane));
   }
 }
@@ -136,23 +106,12 @@ LANES_INLINE lanes depth_to_t(const struct line *line, lanes w)
   return ((w + line->start[1]) + line->start[0]) * line->to_t;
 }
 
-/* How far a point of the surface moves at most within the radii of a root. Along a pole's border, the derivative is no
- * more than the mixed one times the distance from the pole. */
-LANES_INLINE lanes root_reach(const struct leaf *leaf, const struct newton_root *r)
-{
-  const lanes radius[2] = {r->radius_u, r->radius_v};
-  if (leaf->pole == 0) return leaf->first[0] * radius[0] + leaf->first[1] * radius[1];
-  const int border = leaf->pole - 1, d = border / 2;
-  const lanes at = d ? r->v : r->u, away = lanes_abs(border & 1 ? 1 - at : at) + radius[d];
-  return leaf->first[d] * radius[d] + lanes_min(lanes_all(leaf->first[1 - d]), leaf->second[1] * away) * radius[1 - d];
-}
-
 /* Bounds the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and of t. */
 LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *it, const struct newton_root *r,
                                 lanes w, lanes at)
 {
   const lanes size = lanes_abs(it->line->to_t);
-  return size * (root_reach(it->leaf, r) + it->line->error + it->leaf->parts.error) +
+  return size * (root_reach(it, r) + it->line->error + it->leaf->parts.error) +
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
 }
 
@@ -167,7 +126,7 @@ LANES_INLINE void root_uv(const struct candidate *it, const struct newton_root *
 LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes at,
                               lanes error, lane_mask taken, bool certain)
 {
-  const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
+  const int64_t leaf = it->number, patch = packet_patch(p, it->leaf);
   lanes uv[2], radius[2];
   root_uv(it, r, uv, radius);
   p->tracer->counts.roots_accepted += lanes_count(taken);
@@ -190,21 +149,13 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
          (lanes_abs(uv[1] - best->v) <= radius[1] + best->radius_v);
 }
 
-/* Lanes whose ray starts exactly in the plane across an axis that the patch lies in. It meets that plane at 0 and
- * nowhere else. */
-static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
-{
-  const struct flat_plane *plane = model_flat_plane(p->model, patch);
-  return plane ? packet_starts_in(p, plane) : (lane_mask){0};
-}
-
 /* Proven roots of several lanes, at x_k = w and t = `at`, become the best where they come before it. Where all hits are
  * gathered there was no best, and the caller removes it again. A root that may lie on a border of the patch, at an end
  * of the ray, or where another root is, is left to the last resort. Returns the lanes that took theirs. */
 LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w,
                              lanes at, lane_mask hits)
 {
-  const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
+  const int64_t leaf = it->number, patch = packet_patch(p, it->leaf);
   const lanes error = root_t_error(p, it, r, w, at);
   hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
   if (!lanes_any(hits)) return hits;
@@ -212,15 +163,11 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   lane_mask rival = lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t), tied = none;
   if (lanes_any(hits & rival)) {
     rival &= ~same_root(p, it, r, patch);
-    tied = one_plane(p->model, patch + none, p->best.patch, hits & rival);
+    tied = one_surface(packet_scene(p)->model, patch + none, p->best.patch, hits & rival);
     rival &= ~tied, hits &= ~tied | first;
   }
-  const lane_mask within = ~on_border(it, r);
-  const lane_mask sure = within & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
-  if (lanes_any(hits & ~sure)) {
-    const lane_mask start = hits & within & ~sure & starts_in_plane(p, it->leaf->patch);
-    packet_postpone(p, it, hits & ~sure & ~start);
-  }
+  const lane_mask sure = ~on_border(it, r) & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
+  if (lanes_any(hits & ~sure)) packet_postpone(p, it, hits & ~sure);
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);
   return taken;
@@ -248,12 +195,12 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
 #define TAIL_ERROR (72 * UNIT_ROUNDOFF * 0x1p-26)
 
 /* The lanes whose root is final. The radii are no less than 72 u |M| for the inverse Jacobian M (PLANE_ERROR), so they
- * tell how M magnifies an error. On a thin patch seen edge-on, the root may be off by far more than rounding the input
+ * show how M magnifies an error. On a thin patch seen edge-on, the root may be off by far more than rounding the input
  * causes. */
 LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it, const struct leaf_root *root)
 {
   const struct leaf *leaf = it->leaf;
-  const lanes reach = root_reach(leaf, &root->at);
+  const lanes reach = root_reach(it, &root->at);
   const lanes off = leaf->parts.error + TAIL_ERROR + root->left;
   return packet_has_digits(p, it->patch, NEAR_START, root->t) &
          (off * it->patch->scale * reach <=

@@ -16,16 +16,15 @@ LANES_INLINE lane_mask best_after(const struct best *best, lanes t, lane_mask pa
   return (t < best->t) | ((t == best->t) & first);
 }
 
-/* Lanes of `where` on which a and b are two patches of the scene in one plane across an axis: the ray meets both at one
- * t. */
-LANES_INLINE lane_mask one_plane(const struct model *model, lane_mask a, lane_mask b, lane_mask where)
+/* Lanes of `where` on which a and b are two patches of the scene with one surface: the ray meets both at one t. */
+LANES_INLINE lane_mask one_surface(const struct model *model, lane_mask a, lane_mask b, lane_mask where)
 {
   lane_mask one = {0};
-  if (!model->plane) return one;
+  if (!model->surface) return one;
   for (unsigned bits = lanes_bits(where & (a != b) & (a != NO_PATCH) & (b != NO_PATCH)); bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
-    const uint32_t plane = model->plane[a[l]];
-    if (plane != 0 && plane == model->plane[b[l]]) one |= lanes_mask(bits & -bits);
+    const uint32_t surface = model->surface[a[l]];
+    if (surface != 0 && surface == model->surface[b[l]]) one |= lanes_mask(bits & -bits);
   }
   return one;
 }
@@ -49,12 +48,34 @@ LANES_INLINE lane_mask inside(const struct newton_root *r)
          (r->v - 1 <= r->radius_v);
 }
 
-/* Postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it (exact.h), unless
- * the ray starts in the leaf's plane or in a vertex, and meets nothing else of it. */
+/* The leaf's first border (geometry/edges.h) that is a pole, or -1. */
+LANES_INLINE int leaf_pole(const struct model_patch *patch, const struct leaf *leaf)
+{
+  const uint16_t *split = patch->cut.split;
+  const bool *pole = patch->pole;
+  return pole[0] & (leaf->column_u == 0)              ? 0
+         : pole[1] & (leaf->column_u == split[0] - 1) ? 1
+         : pole[2] & (leaf->column_v == 0)            ? 2
+         : pole[3] & (leaf->column_v == split[1] - 1) ? 3
+                                                      : -1;
+}
+
+/* How far a point of the surface moves at most within the radii of a root. Along a pole's border, the derivative is no
+ * more than the mixed one times the distance from the pole. */
+LANES_INLINE lanes root_reach(const struct candidate *it, const struct newton_root *r)
+{
+  const struct leaf *leaf = it->leaf;
+  const lanes radius[2] = {r->radius_u, r->radius_v};
+  const int border = leaf_pole(it->patch, leaf), d = border / 2;
+  if (border < 0) return leaf->first[0] * radius[0] + leaf->first[1] * radius[1];
+  const lanes at = d ? r->v : r->u, away = lanes_abs(border & 1 ? 1 - at : at) + radius[d];
+  return leaf->first[d] * radius[d] + lanes_min(lanes_all(leaf->first[1 - d]), leaf->second[1] * away) * radius[1 - d];
+}
+
+/* Postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it (exact.h). */
 void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open);
 
-/* Postpones all leaves of a copy that the best root of these lanes may be in. Next to a border between two leaves, the
- * object's coordinates do not tell which of them it is in. */
+/* Postpones the copy's patch that the best root of these lanes is in. */
 void packet_postpone_best(struct packet *p, lane_mask open);
 
 /* Offers proven roots of several lanes. */

@@ -9,7 +9,7 @@
 #include "intersect/lanes/packet.h"
 
 /* The result of Newton's method and its proof (certificate.h). The other members have a meaning only on lanes where
- * `exists` is set, which are among those asked for. */
+ * `exists` is set, which are among the active ones. */
 struct newton_root {
   lanes u, v;
   lanes radius_u, radius_v; /* bounds on the distance of the exact root */

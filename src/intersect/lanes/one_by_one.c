@@ -1,4 +1,4 @@
-/* The method that the scene asks for, lane by lane: if its form does not run on lanes, or without polish.
+/* The scene's method, lane by lane: if its form does not run on lanes, or without polish.
  *
  * Compiled once per instruction set.
  */

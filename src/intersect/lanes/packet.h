@@ -64,7 +64,7 @@ struct postponed {
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
-/* For any hit: leaves that are put off until all others have been tried. These are leaves that rays start in, and
+/* For any hit: leaves that are deferred until all others have been tried. These are leaves that rays start in, and
  * seldom hit, and leaves that only expensive stages decide. A ray that has found a hit by then need not be tried on
  * them. */
 enum { MOST_LATER = 32 };
@@ -76,7 +76,7 @@ struct later {
   } at[MOST_LATER];
 };
 
-/* Puts the leaf off for these rays. Returns false if there is no room. */
+/* Defers the leaf for these rays. Returns false if there is no room. */
 static inline bool later_add(struct later *later, uint32_t leaf, unsigned rays)
 {
   unsigned k = 0;
@@ -97,9 +97,9 @@ struct packet {
   const struct model_copy *copy;          /* if so, the object's copy */
   lanes shift;                            /* if so, t of the scene is shift + t */
   bool any;                               /* any hit will do */
-  struct later *later;                    /* where leaves are put off to; NULL: they are not, or no longer */
+  struct later *later;                    /* where leaves are deferred to; NULL: they are not, or no longer */
   unsigned first_ray;                     /* the bit of lane 0 in its `rays` */
-  struct gather *gather;                  /* all hits are asked for, and gathered here; else NULL */
+  struct gather *gather;                  /* all hits are wanted, and gathered here; else NULL */
   lanes t_end;                            /* if so, the value of t_far, except while a root is taken */
   bool moved;                             /* live or t_far has changed */
   lane_mask live;                         /* lanes whose ray still seeks a hit */
@@ -108,7 +108,7 @@ struct packet {
   /* error of control points and rays, besides their rounding in a patch's frame */
   double net_error;
   lanes t_error;               /* error of t that this and the shift cause */
-  struct postponed *postponed; /* not used if all hits are asked for */
+  struct postponed *postponed; /* not used if all hits are wanted */
   uint32_t patch;              /* of the last leaf tried; UINT32_MAX: none */
   bool oriented;               /* packet_orient has run; before, the members below are not set */
   lane_mask on_axis[3];        /* lanes with this dominant axis */
@@ -117,6 +117,15 @@ struct packet {
   struct line line[3];         /* per axis; all but the slopes belong to the patch tried last */
   struct best best;
 };
+
+/* The packet of the scene's rays. */
+static inline const struct packet *packet_scene(const struct packet *p) { return p->outer ? p->outer : p; }
+
+/* The leaf's patch in the scene. */
+static inline uint32_t packet_patch(const struct packet *p, const struct leaf *leaf)
+{
+  return leaf->patch + (p->outer ? p->copy->first_patch : 0);
+}
 
 /* The dominant axis of a lane that seeks a hit. */
 static inline int packet_axis(const struct packet *p, unsigned lane)
@@ -152,7 +161,7 @@ static inline uint64_t packet_exact_limit(const struct packet *p, unsigned lane)
 }
 
 /* Charges each ray that cost: (a mask & a number is that number on the lanes of the mask, and 0 on the others). The walk
- * asks whether anything is left. */
+ * checks whether anything is left. */
 LANES_INLINE void packet_charge(const struct packet *p, lane_mask cost) { p->postponed->left -= cost; }
 
 /* The largest absolute value of the three. */
@@ -187,27 +196,6 @@ LANES_INLINE lane_mask packet_nearer(const struct packet *p, const struct model_
 LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, double from, lanes t)
 {
   return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
-}
-
-/* Lanes whose ray starts exactly in the plane. */
-LANES_INLINE lane_mask packet_starts_in(const struct packet *p, const struct flat_plane *plane)
-{
-  return p->origin[plane->axis] == plane->value;
-}
-
-/* Lanes whose ray starts exactly in the plane, and leaves it. */
-LANES_INLINE lane_mask packet_leaves_plane(const struct packet *p, const struct flat_plane *plane)
-{
-  return packet_starts_in(p, plane) & (p->direction[plane->axis] != 0);
-}
-
-/* Lanes whose ray starts exactly in control point `at` of the patch, numbered as by edge_at. The ray's line passes that
- * point at the start only, where it is no hit. */
-LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, int at)
-{
-  if (p->outer) return (lane_mask){0}; /* the start is rounded there */
-  const double *point = p->model->scene->patches[patch].P[at / 4][at % 4];
-  return (p->origin[0] == point[0]) & (p->origin[1] == point[1]) & (p->origin[2] == point[2]) & (p->t_min >= 0);
 }
 
 /* candidate.c: tries the leaf, with this patch and number, on the lanes of `active`, and keeps roots that come before

@@ -194,16 +194,20 @@ LANES_INLINE bool piece_root(const struct piece_ray *ray, const struct piece *pi
 
 /* ---- divide ---- */
 
-/* Exchanges the pair of a leaf for one whose roots are simple and regular at its pole. On that border f0 and f1 are
+/* A ray whose planes' polynomials are both less than this many times their error at a pole meets it, as far as doubles
+ * show. */
+#define POLE_MET 4
+
+/* Exchanges the pair of a leaf for one whose roots are simple and regular at its pole, that border. There f0 and f1 are
  * constants, of which let that of f0 be the larger one, c0; then f1 becomes ((c1/c0) f0 - f1) / d, with d the distance
  * from the border. The numerator is 0 there, so its coefficients of row n are those of the quotient in row n - 1, times
  * n/3, and the quotient is raised to degree 3 again. Nothing else knows of poles.
  *
  * c0 and c1 are off by e, so their quotient by 3 e/|c0| where |c0| >= 4 e (POLE_MET); and the numerator by 2 e for f0 and f1, that
- * times f0, and roundings. If |c0| is less, the ray meets the pole, as far as doubles tell, and the pair stays. */
-LANES_INLINE void piece_divide(struct piece_ray *ray, struct piece *piece)
+ * times f0, and roundings. If |c0| is less, the ray meets the pole, as far as doubles show, and the pair stays. */
+LANES_INLINE void piece_divide(struct piece_ray *ray, int border, struct piece *piece)
 {
-  const int border = ray->leaf->pole - 1, at = edge_at(border, 0);
+  const int at = edge_at(border, 0);
   const double first = piece->f[0].c[at / 4][at % 4], second = piece->f[1].c[at / 4][at % 4];
   const int kept = fabs(first) >= fabs(second) ? 0 : 1;
   const double c0 = kept ? second : first, ratio = (kept ? first : second) / c0, e = ray->error[0];

@@ -32,7 +32,6 @@ lane_mask quadric_along(const struct packet *p, const struct candidate *it, lane
   out->f[0] = z - (c[0] + y1 * by_1 + y2 * by_2);
   out->f[1] = dz - (dy1 * by_1 + y1 * turn_1 + dy2 * by_2 + y2 * turn_2);
   out->f[2] = -(dy1 * turn_1 + dy2 * turn_2);
-  out->slope[0] = dy1, out->slope[1] = dy2;
   const double rounded = 8 * UNIT_ROUNDOFF; /* bound on the errors of dy1 and dy2 */
   const lanes way_1 = lanes_abs(dy1) + rounded, way_2 = lanes_abs(dy2) + rounded;
   out->turn = quadric->turn[0] * way_1 + (quadric->turn[1] * way_2 + quadric->slack);
@@ -76,65 +75,23 @@ LANES_INLINE struct known_place place_of(const struct quadric_along *a, const st
 }
 
 lane_mask quadric_closes(const struct quadric_along *a, const struct candidate *it, const struct leaf_root *root,
-                         lane_mask asked)
+                         lane_mask open)
 {
   const struct known_place at = place_of(a, it, root);
   const lanes first = a->f[1] + a->f[2] * ((at.w - at.reach) + a->from);
   const lanes last = a->f[1] + a->f[2] * ((at.w + at.reach) + a->to);
   const lane_mask alone = at.near & ((lanes_min(first, last) > at.turn) | (lanes_max(first, last) < -at.turn));
-  return asked & ((a->from > a->to) | passes_by(a, it->leaf->quadric.off) | alone);
-}
-
-lane_mask quadric_closes_two(const struct quadric_along *a, const struct candidate *it, const struct leaf_root *first,
-                             const struct leaf_root *second, lane_mask asked)
-{
-  const struct known_place one = place_of(a, it, first), two = place_of(a, it, second);
-  const lanes apart = lanes_abs(one.w - two.w) - (one.reach + two.reach);
-  return asked & one.near & two.near & (lanes_abs(a->f[2]) * apart > (1 + 8 * UNIT_ROUNDOFF) * (one.turn + two.turn));
-}
-
-/* Start values for another root: where f has the same value as at the known one, by the derivatives in the middle of
- * the leaf. Returns the lanes where they are near the leaf. */
-static lane_mask other_start(const struct quadric_along *a, const struct candidate *it, lane_mask open, lanes start[2])
-{
-  const struct leaf *leaf = it->leaf;
-  const double(*base)[3] = leaf->parts.base;
-  double y[2][2]; /* of y1 and y2, by s and t */
-  for (int q = 0; q < 2; q++) {
-    const double *g = leaf->slab[1 + q].g;
-    for (int k = 0; k < 2; k++) y[q][k] = g[0] * base[1 + k][0] + (g[1] * base[1 + k][1] + g[2] * base[1 + k][2]);
-  }
-  const double inverse = 1 / (y[0][0] * y[1][1] - y[0][1] * y[1][0]);
-  const lanes w = it->first.w, way = inverse * (-(a->f[1] / a->f[2] + w) - w);
-  start[0] = (it->first.at.u - 0.5) + way * (y[1][1] * a->slope[0] - y[0][1] * a->slope[1]);
-  start[1] = (it->first.at.v - 0.5) + way * (y[0][0] * a->slope[1] - y[1][0] * a->slope[0]);
-  const double end = 0.5 + LEAF_MARGIN;
-  return open & it->first.at.exists & (lanes_abs(start[0]) <= end) & (lanes_abs(start[1]) <= end);
-}
-
-/* Seeks another root besides the first. Returns the lanes on which these two are all. */
-static lane_mask other_root(struct packet *p, const struct candidate *it, const struct quadric_along *a, lane_mask open)
-{
-  struct leaf_root second;
-  lanes start[2];
-  open = other_start(a, it, open, start);
-  if (!lanes_any(open)) return open;
-  newton_solve(p, it->leaf, it->axis, start, open, &second);
-  const lane_mask all = quadric_closes_two(a, it, &it->first, &second, open);
-  offer_root(p, it, &it->first, all & inside(&it->first.at));
-  offer_root(p, it, &second, (p->any ? open : all) & inside(&second.at));
-  return all;
+  return open & ((a->from > a->to) | passes_by(a, it->leaf->quadric.off) | alone);
 }
 
 lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open)
 {
   struct quadric_along along;
   if (!it->leaf->has_quadric) leaf_quadrics(1, it->leaf);
-  const lane_mask asked = quadric_along(p, it, open, &along), closed = quadric_closes(&along, it, &it->first, asked);
+  const lane_mask closed = quadric_closes(&along, it, &it->first, quadric_along(p, it, open, &along));
   offer_root(p, it, &it->first, closed & inside(&it->first.at));
   open &= ~closed & p->live;
-  if (it->patch->lanes != SOLVER_LANES_SIGNS) return open;
-  p->tracer->counts.roots_found += lanes_count(closed & it->first.at.exists);
-  if (lanes_any(open & asked)) open &= ~other_root(p, it, &along, open & asked);
-  return open & p->live;
+  if (it->patch->lanes == SOLVER_LANES_SIGNS)
+    p->tracer->counts.roots_found += lanes_count(closed & it->first.at.exists);
+  return open;
 }

@@ -10,11 +10,8 @@
  *     |w1 - w2| (turn[0] |y1'| + turn[1] |y2'|). So if there is a root at w1, there is none at a w2 where
  *     |f'((w1 + w2)/2)| exceeds the factor in parentheses. Nor is there another one at w1 itself: where turn is
  *     finite, distinct points of the leaf differ in y1 or y2;
- *   - if there are roots at w1 and w2, there is none at a w where f'((w1 + w)/2) and f'((w2 + w)/2), which are
- *     f[2] (w1 - w2) apart, cannot both be as small as that.
  *
- * The first proves that a ray passes a bent leaf by. The second tells on which side of a leaf a grazing ray stays, and
- * the third decides a ray that cuts a piece off. In these cases a bound on how far the leaf's Jacobian turns decides
+ * The first proves that a ray passes a bent leaf by. The second shows on which side of a leaf a grazing ray stays. In these cases a bound on how far the leaf's Jacobian turns decides
  * nothing, whereas f takes the ray's own direction into account.
  */
 #ifndef PSCN_INTERSECT_LANES_QUADRIC_H
@@ -24,8 +21,7 @@
 
 /* f, and the range in which slabs and ends of the ray allow roots. */
 struct quadric_along {
-  lanes f[3];     /* f(w) = f[0] + f[1] w + f[2] w^2 */
-  lanes slope[2]; /* y1' and y2' */
+  lanes f[3]; /* f(w) = f[0] + f[1] w + f[2] w^2 */
   lanes from, to;
   /* bound on the difference of the rests of two roots, over their distance: on the leaf, and on the widened one */
   lanes turn, turn_wide;
@@ -34,13 +30,9 @@ struct quadric_along {
 /* quadric.c: sets *out. Returns the lanes of `open` on which it may be used: their rays are known well enough. */
 lane_mask quadric_along(const struct packet *p, const struct candidate *it, lane_mask open, struct quadric_along *out);
 
-/* quadric.c: the lanes of `asked` on which the leaf has no root between the ends of the ray besides *root, if that
+/* quadric.c: the lanes of `open` on which the leaf has no root between the ends of the ray besides *root, if that
  * exists. */
 lane_mask quadric_closes(const struct quadric_along *along, const struct candidate *it, const struct leaf_root *root,
-                         lane_mask asked);
-
-/* quadric.c: the lanes of `asked` on which both roots exist, are distinct, and are all. */
-lane_mask quadric_closes_two(const struct quadric_along *along, const struct candidate *it,
-                             const struct leaf_root *first, const struct leaf_root *second, lane_mask asked);
+                         lane_mask open);
 
 #endif

@@ -1,9 +1,9 @@
-/* The resultant of a candidate's plane polynomials (paper eq 4 to 6, in Bernstein form), and one of its roots.
+/* The resultant of a candidate's plane polynomials (paper eq 4 to 6, in Bernstein form), and what its control polygon
+ * says of its roots.
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
-#include "intersect/lanes/cover.h"
-#include "intersect/lanes/nearest.h"
+#include "intersect/lanes/candidate.h"
 #include "intersect/resultant_error.h"
 
 #define BEZOUT_REAL lanes
@@ -101,7 +101,8 @@ static lanes resultant_root(const struct candidate *it, bool first)
   return lanes_select(back, 1 - found, found);
 }
 
-lanes resultant_eliminated(const struct candidate *it, lanes kept)
+/* The eliminated parameter at a root of r. */
+static lanes resultant_eliminated(const struct candidate *it, lanes kept)
 {
   const int m = it->form.kept_degree, n = it->form.eliminated_degree;
   const lanes s = 1 - kept;
@@ -117,42 +118,18 @@ lanes resultant_eliminated(const struct candidate *it, lanes kept)
   return lanes_select(first, num[0], num[1]) / lanes_select(first, den[0], den[1]);
 }
 
-/* Refines that root, with its eliminated parameter, by Newton's method on the leaf. */
-static void resultant_refine(const struct packet *p, const struct candidate *it, bool first, lane_mask active,
-                             struct leaf_root *out)
+void starts_set(const struct candidate *it, int k, lanes kept, struct root_starts *out)
 {
-  const lanes kept = start_within(resultant_root(it, first)), eliminated = start_within(resultant_eliminated(it, kept));
-  const bool v_kept = it->form.v_kept;
-  const lanes start[2] = {(v_kept ? eliminated : kept) - 0.5, (v_kept ? kept : eliminated) - 0.5};
-  newton_solve(p, it->leaf, it->axis, start, active, out);
+  const lanes at = start_within(kept), other = start_within(resultant_eliminated(it, at));
+  out->u[k] = it->form.v_kept ? other : at, out->v[k] = it->form.v_kept ? at : other;
 }
 
-/* Offers this root and, if r may have another one, that one, as far as they are proven, where boxes prove that the leaf
- * has no other on the ray. Returns those lanes of `open`. */
-static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct leaf_root *root,
-                                 lane_mask open)
+void polygon_starts(const struct candidate *it, lane_mask open, struct root_starts *out)
 {
-  const lane_mask more = open & (it->variations >= 2);
-  struct leaf_root second;
-  second.at.exists = (lane_mask){0};
-  if (lanes_any(more)) resultant_refine(p, it, true, more, &second);
-  return cover_two(p, it, root, &second, open);
-}
-
-/* Where r has several sign variations, the start need not be one of its roots. What is found from it still decides the
- * leaf if it is proven to be alone, or for any hit. Boxes decide most of the others. */
-lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask active)
-{
-  p->tracer->counts.roots_found += lanes_count(active);
-  struct leaf_root root;
-  const struct newton_root *r = &root.at;
-  resultant_refine(p, it, false, active, &root);
-  const lanes k = it->form.v_kept ? r->v : r->u, radius = it->form.v_kept ? r->radius_v : r->radius_u;
-  /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
-  lane_mask single = {0};
-  if (resultant_counts(it)) single = (it->variations == 1) & r->exists & (k > radius) & (1 - k > radius);
-  const lane_mask decided = active & (r->alone | single);
-  offer_root(p, it, &root, (p->any ? active : decided) & inside(r));
-  const lane_mask open = active & ~decided & p->live;
-  return lanes_any(open) ? open & ~resultant_cover(p, it, &root, open) : open;
+  for (int k = 0; k < 2; k++) {
+    out->has[k] = k ? open & (it->variations >= 2) : open;
+    if (!lanes_any(out->has[k])) return;
+    starts_set(it, k, resultant_root(it, k == 1), out);
+    out->count = k + 1;
+  }
 }

@@ -4,7 +4,6 @@
  */
 #include <math.h>
 
-#include "base/lane_points.h"
 #include "base/real.h"
 #include "intersect/lanes/view.h"
 
@@ -14,8 +13,7 @@
 /* The half width of a cube that holds all boxes, with the roundings of making them. */
 #define FRAME_HALF 1.0625
 
-/* A ray that starts farther away than FRAME_NEAR is moved up to the frame first; beyond FRAME_FAR, where doubles would
- * lose it, in wide arithmetic. */
+/* A ray that starts farther away than FRAME_NEAR is moved up to the frame first. From beyond FRAME_FAR doubles lose it. */
 #define FRAME_NEAR 16.0
 #define FRAME_FAR 0x1p30
 
@@ -46,10 +44,9 @@ LANES_INLINE void advance(struct placed *it)
   it->slack += 8 * UNIT_ROUNDOFF * lanes_abs(it->start);
 }
 
-/* Moves rays that start farther away than FRAME_NEAR to where their lines enter the frame, or before it; those on lanes
- * beyond FRAME_FAR in wide arithmetic, as in local_ray.h. Out of line, because it is rare. */
-__attribute__((noinline)) static void come_near(const struct packet *p, const struct model_tree *tree, double size,
-                                                lanes farthest, struct placed *it)
+/* Moves rays that start farther away than FRAME_NEAR to where their lines enter the frame, or before it. Those beyond
+ * FRAME_FAR, where doubles lose them, pass every box. Out of line, because it is rare. */
+__attribute__((noinline)) static void come_near(lanes farthest, struct placed *it)
 {
   lanes enter = lanes_all(-INFINITY);
   for (int k = 0; k < 3; k++) {
@@ -58,16 +55,10 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
   }
   it->start = lanes_max(enter, it->start);
   advance(it);
-  for (unsigned bits = lanes_bits(~(farthest <= FRAME_FAR)); bits; bits &= bits - 1) {
-    const int l = __builtin_ctz(bits);
-    struct ray ray = {.t_min = p->t_min[l] - p->t_error[l]};
-    double at[3];
-    for (int k = 0; k < 3; k++) ray.origin[k] = p->origin[k][l], ray.direction[k] = p->direction[k][l];
-    it->start[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
-    /* the ray is exactly placed, but the frame's origin is rounded */
-    for (int k = 0; k < 3; k++) it->from[k][l] = at[k];
-    it->slack[l] = size;
-  }
+  const lane_mask lost = ~(farthest <= FRAME_FAR);
+  for (int k = 0; k < 3; k++) it->from[k] = lanes_select(lost, lanes_all(0), it->from[k]);
+  it->start = lanes_select(lost, lanes_all(0), it->start),
+  it->slack = lanes_select(lost, lanes_all(FRAME_FAR), it->slack);
 }
 
 /* size: START_ROUNDOFF times twice the distance from the world's origin to the frame's. One half is for the frame's
@@ -86,7 +77,7 @@ LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, d
   /* No ray is in the frame before this depth, because its dominant coordinate is outside. In the coordinates of a
    * copy's object the start is known only to t_error, which from far away is many times the object's size. */
   it->start = lanes_max((p->t_min - p->t_error) * it->unit, -(farthest + 2));
-  if (lanes_any(~(farthest <= FRAME_NEAR))) come_near(p, tree, size, farthest, it);
+  if (lanes_any(~(farthest <= FRAME_NEAR))) come_near(farthest, it);
   else advance(it);
   it->slack += ORIGIN_SLACK * (1 + largest_of(it->from));
 }
@@ -123,65 +114,15 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
   view->widen = WIDE_SLACKS * off;
 }
 
-#if LANES == 4
-/* set for one ray, its coordinates side by side; writes only lane 0. Returns false if the ray starts so far away that
- * more is needed. */
-static bool set_one(struct view *view, const struct packet *p, const struct model_tree *tree)
-{
-  const double to_frame = 1 / tree->frame, longest = p->longest[0], unit = longest * to_frame;
-  const lanes *o = p->origin, *d = p->direction;
-  const lanes origin = {o[0][0], o[1][0], o[2][0], o[2][0]}, middle = lane_points_load(tree->origin);
-  const lanes along = lanes_all(1 / longest) * (lanes){d[0][0], d[1][0], d[2][0], d[2][0]};
-  lanes from = (origin - middle) * to_frame,
-        slack = START_ROUNDOFF * (lanes_abs(origin) + lanes_abs(middle)) * to_frame;
-  const lanes far = lanes_abs(from);
-  const double farthest = real_max(real_max(far[0], far[1]), far[2]),
-               start = real_max(p->t_min[0] * unit, -(farthest + 2));
-  if (!(farthest <= FRAME_NEAR)) return false;
-  from += start * along, slack += 8 * UNIT_ROUNDOFF * fabs(start);
-  slack += ORIGIN_SLACK * (1 + lanes_abs(from));
-  const four_floats way = __builtin_convertvector(along, four_floats);
-  const four_floats low = __builtin_convertvector(from + slack, four_floats);
-  const four_floats high = __builtin_convertvector(from - slack, four_floats);
-  const four_floats huge = four_floats_select(way < 0, four_floats_all(-HUGE_INVERSE), four_floats_all(HUGE_INVERSE));
-  const four_floats inverse = four_floats_select(four_floats_abs(way) > 1 / HUGE_INVERSE, 1 / way, huge);
-  const four_floats to_low = low * -inverse, to_high = high * -inverse;
-  const four_floats early = four_floats_min(to_low, to_high), late = four_floats_max(to_low, to_high);
-  const four_floats at = __builtin_convertvector(from, four_floats);
-  for (int k = 0; k < 3; k++) {
-    view->inverse[k][0] = inverse[k], view->early[k][0] = early[k], view->late[k][0] = late[k];
-    view->from[k][0] = at[k], view->along[k][0] = way[k];
-  }
-  view->widen[0] = WIDE_SLACKS * (float)real_max(real_max(slack[0], slack[1]), slack[2]);
-  view->start[0][0] = start, view->unit[0][0] = unit;
-  view->apart = view->alike = false;
-  return true;
-}
-#endif
-
-/* Two calls, so that one packet costs no loops over more. Out of line because of the room that they take. */
-__attribute__((noinline)) static void set_many(struct view *view, const struct packet packet[], int packets,
-                                               const struct model_tree *tree)
+/* Two calls, so that one packet costs no loops over more. */
+void view_set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree)
 {
   if (packets == 1) set(view, packet, 1, tree);
   else set(view, packet, PACKETS, tree);
 }
 
-void view_set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree)
-{
-#if LANES == 4
-  if (packets == 1 && packet->count == 1 && set_one(view, packet, tree)) return;
-#endif
-  set_many(view, packet, packets, tree);
-}
-
 void view_set_ends(struct view *view, const struct packet packet[], int packets)
 {
-  if (packets == 1 && packet->count == 1) {
-    const double end = packet->t_far[0] * view->unit[0][0], start = view->start[0][0];
-    view->far[0] = (float)((end - start) + 8 * UNIT_ROUNDOFF * (fabs(end) + fabs(start))) * DEPTH_GROWTH;
-    return;
-  }
   lanes far[PACKETS];
   for (int k = 0; k < PACKETS; k++) {
     const int h = k < packets ? k : packets - 1;

@@ -84,8 +84,7 @@ struct ray_view {
   struct sides sides;
 };
 
-/* view.c: sets all but the ends of the rays of these 1 to PACKETS packets, in the tree's frame. For a single ray only
- * lane 0 is set; ray_view_of reads no other. */
+/* view.c: sets all but the ends of the rays of these 1 to PACKETS packets, in the tree's frame. */
 void view_set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree);
 
 /* view.c: sets the current ends of the same rays. */
@@ -176,7 +175,7 @@ LANES_INLINE unsigned view_oriented(const struct view *view, const struct orient
   return ~float_lanes_bits(out);
 }
 
-/* As bits, the rays that start in the slab across the leaf, as far as floats tell. */
+/* As bits, the rays that start in the slab across the leaf, as far as floats show. */
 LANES_INLINE unsigned view_starts(const struct view *view, const struct oriented_box *box)
 {
   const float_lanes a = view->from[0] * box->g[0][0] +

@@ -108,7 +108,7 @@ LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
 {
   const struct model *model = b->packet[0].model;
   if (!box_passed(b, box, 1u << lane)) return false;
-  if (!bundle_put_off(b, box, 1u << lane)) return false;
+  if (!bundle_defer(b, box, 1u << lane)) return false;
   if (box < model->leaf_count) fetch_leaf(model, box);
   return true;
 }
@@ -118,7 +118,7 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
 {
   struct ray_way way;
   ray_begin(b, child, lane, &way);
-  for (bool on = true; on && ray_looks(b, lane);) {
+  for (bool on = true; on && ray_charge(b, lane);) {
     const uint32_t box = way.child & ~BVH_LEAF;
     if (way.child == box) {
       on = ray_down(b, tree, &way);
@@ -145,7 +145,7 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
       const unsigned lane = (unsigned)__builtin_ctz(bits);
       struct ray_way *way = &ways[lane];
       const uint32_t child = way->child, box = child & ~BVH_LEAF;
-      if (waits_at[lane] == 0 && !ray_looks(b, lane)) {
+      if (waits_at[lane] == 0 && !ray_charge(b, lane)) {
         rays &= ~(1u << lane);
       } else if (child == box) {
         if (!ray_down(b, tree, way)) rays &= ~(1u << lane);
@@ -229,8 +229,8 @@ LANES_INLINE bool together_next(const struct bundle *b, struct waiting *w, unsig
   return true;
 }
 
-/* What rays have looked at together is counted once it is this many boxes. */
-enum { LOOKS_AT_ONCE = 64 };
+/* Boxes that rays test together are charged once they are this many. */
+enum { CHARGED_AT_ONCE = 64 };
 
 /* Takes the rays through the tree together, as long as there are several. Out of line because of the stack that it
  * takes. */
@@ -241,13 +241,13 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   const int few = most_alone(b);
   const bool nearest = nearest_first(b);
   uint32_t child = 0;
-  int looks = 0;
+  int boxes = 0;
   for (bool on = true; on;) {
-    looks++;
+    boxes++;
     if (child & BVH_LEAF) {
       const uint32_t box = child & ~BVH_LEAF;
       rays = box_passed(b, box, rays);
-      if (rays) rays = bundle_put_off(b, box, rays);
+      if (rays) rays = bundle_defer(b, box, rays);
       if (rays && box < b->packet[0].model->leaf_count) fetch_leaf(b->packet[0].model, box);
       if (rays) bundle_leaf(b, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
@@ -255,10 +255,10 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
     } else if (together_down(b, tree, nearest, &waiting, &rays, &child)) {
       continue;
     }
-    if (looks >= LOOKS_AT_ONCE) bundle_looked(b, looks), looks = 0;
+    if (boxes >= CHARGED_AT_ONCE) bundle_charge(b, boxes), boxes = 0;
     on = together_next(b, &waiting, &rays, &child);
   }
-  bundle_looked(b, looks);
+  bundle_charge(b, boxes);
 }
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
@@ -269,11 +269,10 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   else together_walk(b, tree, rays);
 }
 
-/* Walks all of the model, twins only where all hits are asked for, and then tries the leaves that were put off. */
+/* Walks all of the model, and then tries the leaves that were deferred. */
 static void bundle_walk_all(struct bundle *b, const struct model *model)
 {
   bundle_walk(b, &model->tree, b->live);
-  if (b->packet[0].gather) bundle_walk(b, &model->twins, b->live);
   for (int h = 0; h < b->packets; h++) b->packet[h].later = NULL;
   for (unsigned k = 0; k < b->later.count; k++) {
     const unsigned rays = b->later.at[k].rays & b->live;
@@ -320,7 +319,7 @@ LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const 
   return unsettled;
 }
 
-/* A ray that did not come to an end counts as hit. In company it is asked again alone. */
+/* A ray that did not come to an end counts as hit. In company it is traced again alone. */
 LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out[], int budget)
 {
   struct ready ready[PACKETS];
@@ -340,7 +339,7 @@ LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const str
 
 LANES_INLINE int budget_of(const struct tracer *tracer, size_t count)
 {
-  return tracer_asks_again(tracer, count) ? tracer->budget >> BUDGET_IN_COMPANY : tracer->budget;
+  return tracer_repeats(tracer, count) ? tracer->budget >> BUDGET_IN_COMPANY : tracer->budget;
 }
 
 /* A single ray has a call of its own, so that it costs no loops over more. */

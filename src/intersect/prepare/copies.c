@@ -242,20 +242,6 @@ enum status copies_choose(struct model *model, size_t most, size_t *own)
   return STATUS_OK;
 }
 
-/* Marks twins: this copy if all of its patches are twins, and of the object's patches those that are twins in every
- * copy. */
-static enum status mark_twins_of_copy(const struct model *model, struct model_copy *copy)
-{
-  struct model_object *of = copy->object;
-  const size_t count = of->declared->patch_count;
-  const bool first = !of->twin, *here = model->twin + copy->first_patch;
-  if (first) of->twin = arena_alloc(model->arena, count, sizeof *of->twin);
-  if (!of->twin) return STATUS_LIMIT;
-  for (size_t p = 0; p < count; p++) of->twin[p] = (first || of->twin[p]) && here[p];
-  copy->twin = !memchr(here, false, count);
-  return STATUS_OK;
-}
-
 /* Makes the model of an object from its nets about their middle; the solver is that of a copy. */
 static enum status prepare_object(const struct model *model, const struct team *team, const struct model_copy *copy,
                                   const struct cut_limit *limit, struct model_object *object)
@@ -278,8 +264,6 @@ static enum status prepare_object(const struct model *model, const struct team *
 
 enum status copies_prepare(struct model *model, const struct team *team, const struct cut_limit *limit)
 {
-  for (size_t k = 0; k < model->copy_count && model->twin; k++)
-    if (mark_twins_of_copy(model, &model->copies[k]) != STATUS_OK) return STATUS_LIMIT;
   for (size_t k = 0; k < model->copy_count; k++) {
     struct model_copy *copy = &model->copies[k];
     struct model_object *object = copy->object;

@@ -118,7 +118,7 @@ enum status cells_fill(const struct model *model, struct cells *out)
   out->cell = memory_alloc(out->mask + 1, sizeof *out->cell);
   if (!out->cell) return STATUS_LIMIT;
   for (size_t p = 0; p < count; p++)
-    if (!model->cuts[p].copied && !(model->twin && model->twin[p]))
+    if (!model->cuts[p].copied && !model_again(model, p))
       cell_of(out, &model->patches[p])->area += patch_net_area(&model->patches[p]);
   return STATUS_OK;
 }

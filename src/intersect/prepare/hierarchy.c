@@ -238,7 +238,6 @@ enum status hierarchy_make(struct model *model, const struct team *team, const s
   if (status == STATUS_OK && model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
   end_arenas(&m, m.keep);
   if (status == STATUS_OK) status = make_tree(&m);
-  if (status == STATUS_OK) tree_finish(model);
   end_arenas(&m, m.keep);
   memory_free(m.arenas);
   memory_free(m.leaves);

@@ -109,9 +109,6 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
     leaves[k].patch = index, leaves[k].column_u = (uint16_t)(number / row),
     leaves[k].column_v = (uint16_t)(number % row);
     leaves[k].has_quadric = false;
-    leaves[k].pole = 0;
-    for (int border = 3; border >= 0; border--)
-      if (border_is_point(patch, &leaves[k], border)) leaves[k].pole = (uint8_t)(border + 1);
   }
   kernel_for(count)->leaves(patch, count, leaves);
 }

@@ -1,13 +1,11 @@
-/* Prepares a scene: its frame, how far patches may be cut, twins, neighbours, and what copies share. hierarchy.c makes
+/* Prepares a scene: its frame, how far patches may be cut, surfaces, neighbours, and what copies share. hierarchy.c makes
  * the leaves and puts them in order. */
 #include "intersect/model.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/memory.h"
 #include "base/real.h"
-#include "geometry/twins.h"
 #include "intersect/prepare/copies.h"
 #include "intersect/prepare/hierarchy.h"
 #include "intersect/prepare/leaf.h"
@@ -27,9 +25,6 @@ enum { KEPT_PATCHES_MAX = 1 << 16, UNSHARED_MAX = 1 << 10 };
 #define LEAF_TIME 1200.0
 #define PICTURE_RAYS 0x1p19
 
-/* In a scene that reaches farther, sums and products of its own size overflow: nothing is proven. */
-#define LARGEST_SIZE 0x1p1020
-
 /* Sets the frame of the hierarchy, whose boxes are not made yet. */
 static void set_frame(struct model *model)
 {
@@ -41,7 +36,6 @@ static void set_frame(struct model *model)
     model->unproven |= !scene->solvers[scene->patches[p].solver].polish;
   }
   for (int k = 0; k < 3; k++) model->size = real_max(model->size, real_max(fabs(box.lo[k]), fabs(box.hi[k])));
-  model->unproven |= model->size > LARGEST_SIZE;
   double extent = model->size > 0 ? real_max(LEAST_EXTENT * model->size, LEAST_FRAME) : 1;
   for (int k = 0; k < 3; k++)
     model->tree.origin[k] = box_center(&box, k), extent = real_max(extent, box.hi[k] / 2 - box.lo[k] / 2);
@@ -78,7 +72,7 @@ enum status model_create_object(const struct scene *nets, const struct team *tea
 {
   struct model *model = model_begin(nets);
   if (!model) return STATUS_LIMIT;
-  model->error = object->error, model->twin = object->twin, model->most_split = METHOD_MAX_SPLIT;
+  model->error = object->error, model->most_split = METHOD_MAX_SPLIT;
   const enum status status = hierarchy_make(model, team, limit, true, SIZE_MAX);
   model->scene = NULL;
   if (status == STATUS_OK) object->model = model;
@@ -86,30 +80,16 @@ enum status model_create_object(const struct scene *nets, const struct team *tea
   return status;
 }
 
-/* Marks patches that lie on earlier ones; not if nothing is proven, as where the solvers' bare roots are the
- * answers. */
-static enum status mark_twins(struct model *model)
+/* Finds patches of one surface; not if nothing is proven, as where the solvers' bare roots are the answers. */
+static enum status find_surfaces(struct model *model)
 {
   const struct scene *scene = model->scene;
   if (model->unproven) return STATUS_OK;
-  bool *twin = arena_alloc(model->arena, scene->patch_count + 1, sizeof *twin);
-  if (!twin) return STATUS_LIMIT;
-  const enum status status = twins_find(scene->patches, sizeof *scene->patches, scene->patch_count, twin);
-  if (memchr(twin, true, scene->patch_count)) model->twin = twin;
-  return status;
-}
-
-/* Finds the planes that patches lie in; not then, either. */
-static enum status mark_planes(struct model *model)
-{
-  const struct scene *scene = model->scene;
-  if (model->unproven) return STATUS_OK;
-  uint32_t *plane = memory_alloc(scene->patch_count + 1, sizeof *plane);
-  if (!plane) return STATUS_LIMIT;
-  const enum status status = flats_find(scene->patches, sizeof *scene->patches, scene->patch_count, plane,
-                                        &model->planes);
-  if (model->planes) model->plane = plane;
-  else memory_free(plane);
+  uint32_t *surface = arena_alloc(model->arena, scene->patch_count + 1, sizeof *surface);
+  if (!surface) return STATUS_LIMIT;
+  const enum status status = surfaces_find(scene->patches, sizeof *scene->patches, scene->patch_count, surface);
+  for (size_t p = 0; p < scene->patch_count; p++)
+    if (surface[p]) model->surface = surface;
   return status;
 }
 
@@ -118,17 +98,16 @@ static enum status prepare(struct model *model, const struct team *team)
   const struct scene *scene = model->scene;
   model->neighbours = arena_alloc(model->arena, scene->patch_count + 1, 4 * sizeof *model->neighbours);
   if (!model->neighbours) return STATUS_LIMIT;
-  enum status status = mark_twins(model);
-  if (status == STATUS_OK) status = mark_planes(model);
+  enum status status = find_surfaces(model);
   if (status == STATUS_OK)
-    status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->twin,
+    status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->surface,
                          scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
   if (own > UNSHARED_MAX) status = copies_choose(model, KEPT_PATCHES_MAX, &own);
   if (status != STATUS_OK) return status;
   const bool keep = own <= KEPT_PATCHES_MAX && !model->never_keep;
-  for (size_t p = 0; p < scene->patch_count && model->twin; p++) own -= model->twin[p] && !model->cuts[p].copied;
+  for (size_t p = 0; p < scene->patch_count; p++) own -= model_again(model, p) && !model->cuts[p].copied;
   const struct cut_limit of_object = cut_limit(own, true, model->most_split),
                          limit = cut_limit(own, keep, model->most_split);
   status = copies_prepare(model, team, &of_object);
@@ -187,8 +166,6 @@ void model_destroy(struct model *model)
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
   tree_free(model);
   memory_free(model->oriented_room);
-  memory_free(model->plane);
-  memory_free(model->planes);
   arena_destroy(model->arena);
   memory_free(model);
 }

@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "base/real.h"
-#include "geometry/vector.h"
 
 /* Boxes no larger than this part of a frame get a tree of their own if all of them lie within SMALL_PART of it: a float
  * is then still some thousand times finer than they are. Choices of speed. */
@@ -25,24 +24,17 @@ static double box_extent(const struct bvh_box *box)
   return extent;
 }
 
-/* Boxes that get a tree: index[0..count-1]. */
-struct part {
-  uint32_t *index;
-  size_t count;
-  struct bvh_box hull;
-  bool twins; /* part of model->twins, not of model->tree */
-};
-
-/* All boxes of the model, given less tree_about, and the parts that they fall into. The first ones are those of
- * model->tree, with `twins` of model->twins; the others are set apart from these or from one another. */
+/* All boxes of the model, given less tree_about, and the parts that they fall into, each with its hull. The first part is
+ * that of model->tree; the others are set apart from it or from one another. */
 struct parts {
   const struct model *model;
   struct bvh_box *boxes;
   double about[3];
   const struct team *team;
-  struct part *at;
-  size_t count, room;
-  bool failed; /* memory was short */
+  uint32_t *part;       /* of each box */
+  struct bvh_box *hull; /* of each part */
+  size_t count, room;   /* parts */
+  bool failed;          /* memory was short */
 };
 
 static struct bvh_box hull_of(const struct parts *all, const uint32_t index[], size_t count)
@@ -52,13 +44,12 @@ static struct bvh_box hull_of(const struct parts *all, const uint32_t index[], s
   return hull;
 }
 
-static void part_add(struct parts *all, uint32_t *index, size_t count, bool twins)
+/* The size of a part's own frame. */
+static double frame_of(const struct bvh_box *hull)
 {
-  struct part *grown = memory_grow(all->at, &all->room, all->count + 1, sizeof *grown);
-  all->failed |= !grown;
-  if (!grown) return;
-  all->at = grown;
-  grown[all->count++] = (struct part){index, count, hull_of(all, index, count), twins};
+  int exponent;
+  frexp(real_max(box_extent(hull) / 2, LEAST_FRAME), &exponent);
+  return ldexp(1, exponent);
 }
 
 /* Moves boxes larger than `extent` to the front; returns how many there are. */
@@ -83,63 +74,46 @@ static size_t lower_first(const struct parts *all, uint32_t index[], size_t coun
   return lower;
 }
 
+static void part_add(struct parts *all, double frame, uint32_t index[], size_t count);
+
 /* Finds the groups among these boxes, which are tiny, by halving the space that they fill. Both halves have some,
  * because the hull is far larger than the boxes. */
-static void find_groups(struct parts *all, double frame, uint32_t index[], size_t count, bool twins)
+static void find_groups(struct parts *all, double frame, uint32_t index[], size_t count)
 {
   if (count < GROUP_LEAST) return;
   const struct bvh_box hull = hull_of(all, index, count);
   if (box_extent(&hull) <= SMALL_PART * frame) {
-    part_add(all, index, count, twins);
+    part_add(all, frame_of(&hull), index, count);
     return;
   }
   int axis = 0;
   for (int k = 1; k < 3; k++)
     if (hull.hi[k] - hull.lo[k] > hull.hi[axis] - hull.lo[axis]) axis = k;
   const size_t lower = lower_first(all, index, count, axis, box_center(&hull, axis));
-  find_groups(all, frame, index, lower, twins);
-  find_groups(all, frame, index + lower, count - lower, twins);
+  find_groups(all, frame, index, lower);
+  find_groups(all, frame, index + lower, count - lower);
 }
 
-/* Moves the parts from number `first` on, which are in order, behind all other boxes of `from`, which no longer has
- * them. */
-static void parts_last(struct parts *all, struct part *from, size_t first)
+/* Makes these boxes a part with a frame of that size, except for those that are set apart from it in turn. */
+static void part_add(struct parts *all, double frame, uint32_t index[], size_t count)
 {
-  uint32_t *moved = memory_alloc(from->count, sizeof *moved);
-  all->failed |= !moved;
-  if (!moved) return;
-  size_t stay = 0, behind = 0, next = 0;
-  for (size_t n = first; n < all->count; n++) {
-    const struct part *part = &all->at[n];
-    const size_t begin = (size_t)(part->index - from->index);
-    memcpy(moved + behind, part->index, part->count * sizeof *moved);
-    for (; next < begin; next++) from->index[stay++] = from->index[next];
-    next += part->count, behind += part->count;
-  }
-  for (; next < from->count; next++) from->index[stay++] = from->index[next];
-  memcpy(from->index + stay, moved, behind * sizeof *moved);
-  memory_free(moved);
-  from->count = stay;
-  for (uint32_t *at = from->index + stay; first < all->count; at += all->at[first++].count) all->at[first].index = at;
-}
-
-/* Sets groups of a part's boxes apart. */
-static void set_apart(struct parts *all, size_t number, double frame)
-{
-  const struct part part = all->at[number];
-  const size_t first = all->count, large = larger_first(all, part.index, part.count, SMALL_BOX * frame);
-  uint32_t *small = part.index + large;
-  const size_t count = part.count - large;
-  const struct bvh_box hull = hull_of(all, small, count);
-  if (large > 0 && count > 1 && box_extent(&hull) <= SMALL_PART * frame) {
-    part_add(all, small, count, part.twins);
+  struct bvh_box *hulls = memory_grow(all->hull, &all->room, all->count + 1, sizeof *hulls);
+  all->failed |= !hulls;
+  if (!hulls) return;
+  all->hull = hulls, hulls[all->count] = hull_of(all, index, count);
+  for (size_t k = 0; k < count; k++) all->part[index[k]] = (uint32_t)all->count;
+  all->count++;
+  const size_t large = larger_first(all, index, count, SMALL_BOX * frame);
+  uint32_t *small = index + large;
+  const struct bvh_box hull = hull_of(all, small, count - large);
+  if (large > 0 && count - large > 1 && box_extent(&hull) <= SMALL_PART * frame) {
+    part_add(all, frame_of(&hull), small, count - large);
   } else {
-    const size_t larger = larger_first(all, small, count, TINY_BOX * frame);
-    find_groups(all, frame, small + larger, count - larger, part.twins);
-    if (all->count == first + 1 && all->at[first].count == part.count)
-      all->count = first; /* all of them: the frame is as fine as doubles can tell */
+    const size_t larger = larger_first(all, small, count - large, TINY_BOX * frame), tiny = count - large - larger;
+    const struct bvh_box of_tiny = hull_of(all, small + larger, tiny);
+    /* if it is all of them, the frame is as fine as doubles can tell */
+    if (tiny < count || box_extent(&of_tiny) > SMALL_PART * frame) find_groups(all, frame, small + larger, tiny);
   }
-  if (all->count > first) parts_last(all, &all->at[number], first);
 }
 
 void tree_box(const double middle[3], double frame, struct bvh_box *box)
@@ -159,151 +133,77 @@ static void renumber_leaves(struct bvh *bvh, const uint32_t number[])
   }
 }
 
-/* Builds the tree of a part, in a frame of that size about `middle`; of one of the `roots` first parts, also over the
- * hulls of all that were set apart from it. */
-static enum status build(const struct parts *all, size_t part_number, size_t roots, const double middle[3],
+/* Builds the tree of a part from its `count` boxes, in a frame of that size about `middle`; of the first part, also over
+ * the hulls of all others. Uses up index, which has room for them. */
+static enum status build(const struct parts *all, size_t part, uint32_t index[], size_t count, const double middle[3],
                          double frame, struct model_tree *out)
 {
-  const struct part *part = &all->at[part_number];
-  const size_t most = part->count + (part_number < roots ? all->count - roots : 0);
+  const size_t inner = part == 0 ? all->count - 1 : 0;
   const bool alone = all->count == 1; /* nobody else needs the boxes: no copies of them */
-  size_t count = part->count;
   *out = (struct model_tree){.frame = frame};
   for (int k = 0; k < 3; k++) out->origin[k] = all->about[k] + middle[k];
-  struct bvh_box *own = alone ? all->boxes : memory_alloc(most + 1, sizeof *own);
-  uint32_t *number = alone ? part->index : memory_alloc(most + 1, sizeof *number);
-  enum status status = own && number ? STATUS_OK : STATUS_LIMIT;
-  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
-    number[k] = alone ? (uint32_t)k : part->index[k];
-    own[k] = all->boxes[number[k]];
+  struct bvh_box *own = alone ? all->boxes : memory_alloc(count + inner + 1, sizeof *own);
+  if (!own) return STATUS_LIMIT;
+  for (size_t k = 0; k < count && !alone; k++) own[k] = all->boxes[index[k]];
+  for (size_t n = 0; n < inner; n++) {
+    own[count] = all->hull[1 + n];
+    index[count++] = (uint32_t)(all->model->leaf_count + all->model->copy_count + n);
   }
-  for (size_t n = roots; part_number < roots && n < all->count && status == STATUS_OK; n++) {
-    if (all->at[n].twins != part->twins) continue;
-    own[count] = all->at[n].hull;
-    number[count++] = (uint32_t)(all->model->leaf_count + all->model->copy_count + (n - roots));
-  }
-  for (size_t k = 0; k < count && status == STATUS_OK; k++) tree_box(middle, frame, &own[k]);
-  if (status == STATUS_OK) status = bvh_build(own, count, all->team, &out->bvh);
-  if (status == STATUS_OK) renumber_leaves(&out->bvh, number);
-  if (!alone) memory_free(own), memory_free(number);
+  for (size_t k = 0; k < count; k++) tree_box(middle, frame, &own[k]);
+  const enum status status = bvh_build(own, count, all->team, &out->bvh);
+  if (status == STATUS_OK && !alone) renumber_leaves(&out->bvh, index);
+  if (!alone) memory_free(own);
   return status;
 }
 
-/* The size of a part's own frame. */
-static double part_frame(const struct part *part)
+/* Builds all trees. index has room for all boxes and hulls. The first part has the scene's frame. */
+static enum status build_all(const struct parts *all, uint32_t index[], struct model *model, const double middle[3])
 {
-  int exponent;
-  frexp(real_max(box_extent(&part->hull) / 2, LEAST_FRAME), &exponent);
-  return ldexp(1, exponent);
-}
-
-/* Builds all trees. The roots have the scene's frame. */
-static enum status build_all(const struct parts *all, size_t roots, struct model *model, const double middle[3])
-{
-  const double frame = model->tree.frame;
-  model->inner = arena_alloc(model->arena, all->count - roots + 1, sizeof *model->inner);
-  enum status status = model->inner ? STATUS_OK : STATUS_LIMIT;
-  for (size_t n = roots; n < all->count && status == STATUS_OK; n++) {
-    const struct part *part = &all->at[n];
+  const size_t boxes = model->leaf_count + model->copy_count;
+  /* where each part begins in index: the last one first, so that the hulls follow the first one's boxes */
+  size_t *begin = memory_alloc(all->count + 1, sizeof *begin);
+  model->inner = arena_alloc(model->arena, all->count, sizeof *model->inner);
+  enum status status = begin && model->inner ? STATUS_OK : STATUS_LIMIT;
+  if (status == STATUS_OK) {
+    for (size_t k = 0; k < boxes; k++) begin[all->part[k]]++;
+    for (size_t n = all->count; n-- > 0;) begin[n] += begin[n + 1];
+    for (size_t k = boxes; k-- > 0;) index[--begin[all->part[k]]] = (uint32_t)k;
+  }
+  for (size_t n = 1; n < all->count && status == STATUS_OK; n++) {
     double center[3];
-    for (int k = 0; k < 3; k++) center[k] = box_center(&part->hull, k);
-    status = build(all, n, roots, center, part_frame(part), &model->inner[model->inner_count++]);
+    for (int k = 0; k < 3; k++) center[k] = box_center(&all->hull[n], k);
+    status = build(all, n, index + begin[n], begin[n - 1] - begin[n], center, frame_of(&all->hull[n]),
+                   &model->inner[model->inner_count++]);
   }
-  if (status == STATUS_OK) status = build(all, 0, roots, middle, frame, &model->tree);
-  if (status == STATUS_OK && roots > 1) status = build(all, 1, roots, middle, frame, &model->twins);
+  if (status == STATUS_OK)
+    status = build(all, 0, index + begin[0], boxes - begin[0], middle, model->tree.frame, &model->tree);
+  memory_free(begin);
   return status;
-}
-
-/* Whether all in that box lies exactly on something earlier in the scene, whose hit is then the nearest. */
-static bool is_twin(const struct model *model, uint32_t box)
-{
-  if (!model->twin) return false;
-  if (box >= model->leaf_count) return model->copies[box - model->leaf_count].twin;
-  return model->twin[model->leaves ? model->leaves[box].patch : model->places[box].patch];
-}
-
-/* Moves twins to the end; returns how many other boxes there are. */
-static size_t twins_last(const struct model *model, uint32_t index[], size_t count)
-{
-  size_t others = 0;
-  for (size_t k = 0; k < count; k++) {
-    const uint32_t here = index[k];
-    if (!is_twin(model, here)) index[k] = index[others], index[others++] = here;
-  }
-  return others;
 }
 
 enum status tree_build(struct model *model, struct bvh_box boxes[], const struct team *team)
 {
   const size_t count = model->leaf_count + model->copy_count;
-  const struct model_tree *tree = &model->tree;
   struct parts all = {.model = model, .boxes = boxes, .team = team};
   double middle[3];
-  for (int k = 0; k < 3; k++) all.about[k] = tree_about(tree, k), middle[k] = tree->origin[k] - all.about[k];
-  uint32_t *index = memory_alloc(count + 1, sizeof *index);
-  if (!index) return STATUS_LIMIT;
-  for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
-  const size_t others = twins_last(model, index, count), roots = others < count ? 2 : 1;
-  part_add(&all, index, others, false);
-  if (others < count) part_add(&all, index + others, count - others, true);
-  for (size_t n = 0; n < all.count && !all.failed; n++)
-    set_apart(&all, n, n < roots ? tree->frame : part_frame(&all.at[n]));
-  const enum status status = all.failed ? STATUS_LIMIT : build_all(&all, roots, model, middle);
-  memory_free(all.at);
+  for (int k = 0; k < 3; k++)
+    all.about[k] = tree_about(&model->tree, k), middle[k] = model->tree.origin[k] - all.about[k];
+  enum status status = STATUS_LIMIT;
+  uint32_t *index = memory_alloc(count + 1, sizeof *index), *more = NULL;
+  all.part = memory_alloc(count + 1, sizeof *all.part);
+  if (index && all.part) {
+    for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
+    part_add(&all, model->tree.frame, index, count);
+    more = all.failed ? NULL : memory_resize(index, (count + all.count) * sizeof *index);
+  }
+  if (more) index = more, status = build_all(&all, index, model, middle);
+  memory_free(all.hull), memory_free(all.part);
   memory_free(index);
   return status;
-}
-
-/* ---- what rays meet in a tree ---- */
-
-/* The area of a leaf: that of the face, across its normal, of the box along it. */
-static double leaf_area(const struct oriented_box *box)
-{
-  double g[3][3], normal[3];
-  for (int q = 0; q < 3; q++)
-    for (int k = 0; k < 3; k++) g[q][k] = (double)box->g[k][q];
-  vector_cross(g[1], g[2], normal);
-  const double area = 4 * (double)box->half[1] * (double)box->half[2] * vector_length(g[0]) /
-                      fabs(vector_dot(g[0], normal));
-  return isfinite(area) ? area : 0;
-}
-
-/* The crossings in a leaf child's box, times the surface of the box. */
-static double crossings_in(const struct model *model, uint32_t box, double surface)
-{
-  if (model_is_tree(model, box)) return model_inner(model, box)->crossings * surface;
-  if (box >= model->leaf_count) return model->copies[box - model->leaf_count].object->model->tree.crossings * surface;
-  return 2 * leaf_area(&model->oriented[box]);
-}
-
-/* A line through a convex body of surface S makes 2 A / S crossings on average, where A is the area of what is in it
- * (Crofton's formula). */
-static void count_crossings(const struct model *model, struct model_tree *tree)
-{
-  struct bvh_box whole = BVH_EMPTY;
-  double sum = 0;
-  for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
-    const struct bvh_node *node = &tree->bvh.nodes[n / BVH_WIDTH];
-    const size_t side = n % BVH_WIDTH;
-    const uint32_t child = node->child[side];
-    struct bvh_box box;
-    if (child == 0) continue;
-    for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
-    if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
-    if (child & BVH_LEAF) sum += crossings_in(model, child & ~BVH_LEAF, box_surface(&box));
-  }
-  const double surface = box_surface(&whole);
-  tree->crossings = surface > 0 ? sum / surface : 0;
-}
-
-void tree_finish(struct model *model)
-{
-  for (size_t k = 0; k < model->inner_count; k++) count_crossings(model, &model->inner[k]);
-  count_crossings(model, &model->tree);
 }
 
 void tree_free(struct model *model)
 {
   for (size_t k = 0; k < model->inner_count; k++) bvh_free(&model->inner[k].bvh);
-  bvh_free(&model->tree.bvh), bvh_free(&model->twins.bvh);
+  bvh_free(&model->tree.bvh);
 }

@@ -31,16 +31,6 @@ enum status tree_build(struct model *model, struct bvh_box boxes[], const struct
 
 static inline double box_center(const struct bvh_box *box, int axis) { return box->lo[axis] / 2 + box->hi[axis] / 2; }
 
-static inline double box_surface(const struct bvh_box *box)
-{
-  const double d[3] = {box->hi[0] - box->lo[0], box->hi[1] - box->lo[1], box->hi[2] - box->lo[2]};
-  return 2 * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]);
-}
-
-/* Sets `crossings` of the model's trees, once boxes along leaves and the objects' trees exist. Leaves
- * whose boxes exclude nothing count as none. */
-void tree_finish(struct model *model);
-
 /* Frees the nodes of all trees of the model. */
 void tree_free(struct model *model);
 
