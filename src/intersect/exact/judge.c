@@ -94,7 +94,8 @@ int judge_compare(struct judge *j, struct exact_root *a, struct exact_root *b, b
 bool judge_stands_before(const struct exact_root *a, const struct exact_root *b)
 {
   if (a->patch != b->patch) return a->patch < b->patch;
-  return a->u != b->u ? a->u < b->u : a->v < b->v;
+  const bool apart = wide_abs(a->u - b->u) > (wide)a->radius_u + b->radius_u;
+  return apart ? a->u < b->u : a->v < b->v;
 }
 
 /* ---- what is found ---- */
