@@ -53,11 +53,11 @@ LANES_INLINE int leaf_pole(const struct model_patch *patch, const struct leaf *l
 {
   const uint16_t *split = patch->cut.split;
   const bool *pole = patch->pole;
-  return pole[0] && (leaf->column_u == 0)              ? 0
-         : pole[1] && (leaf->column_u == split[0] - 1) ? 1
-         : pole[2] && (leaf->column_v == 0)            ? 2
-         : pole[3] && (leaf->column_v == split[1] - 1) ? 3
-                                                      : -1;
+  return pole[0] && leaf->column_u == 0              ? 0
+         : pole[1] && leaf->column_u == split[0] - 1 ? 1
+         : pole[2] && leaf->column_v == 0            ? 2
+         : pole[3] && leaf->column_v == split[1] - 1 ? 3
+                                                     : -1;
 }
 
 /* How far a point of the surface moves at most within the radii of a root. Along a pole's border, the derivative is no
