@@ -105,13 +105,3 @@ pscn trace twins.pscn --explain <ray | cuts
 # No finer than there is room for what cannot be decided.
 for k in $(seq 0 79); do sheet 16 translate $k/100000*z; done >rolled.pscn
 pscn trace rolled.pscn --explain <ray | cuts | sed -n 's/.*\///p' | sort -nr | head -n 1
-# If the answer is a root, it is also asked for of a leaf in whose pole the ray starts. Otherwise that leaf is known to
-# be missed.
-cat >tip.pscn <<'END'
-bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3
-  <0,1,0> <0,1,0> <0,1,0> <0,1,0>  <0.4,0.8,0> <0.4,0.8,0.2> <0.2,0.8,0.4> <0,0.8,0.4>
-  <0.8,0.4,0> <0.8,0.4,0.4> <0.4,0.4,0.8> <0,0.4,0.8>  <1,0,0> <1,0,0.5> <0.5,0,1> <0,0,1> }
-END
-for polish in on off; do
-  echo '0 1 0 0.3 -0.1 0.3' | pscn trace tip.pscn --explain --solver "bernstein { polish $polish split 1 }" | grep -c '^  r:'
-done
