@@ -28,7 +28,7 @@ esac
 TEST_PACKAGES=(chromium clang-format dpkg-dev libcmocka-dev libflint-arb-dev locales openimageio-tools povray
   povray-examples povray-includes parallel python3-numpy)
 # Fractions of 1. Sanitizers look for faults of memory and arithmetic, which show on few rays.
-QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
+QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.001
 # Hundreds of pictures compared with a peer's, programs started again and again, and arithmetic: other tests already run
 # their code.
 ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|gamma|kinds|examples|farm-slurm)|paper-counts'
