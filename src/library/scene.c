@@ -147,11 +147,11 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
     const size_t length = number->name ? strlen(number->name) : 0;
     if (!language_is_name(number->name, length)) return wrong(scene, "a number has a name that cannot be declared");
     numbers[k] = (struct language_number){number->name, length, number->value};
-    if (!number_in_range(&numbers[k].value)) return wrong(scene, "a declared number is no number up to 1e100");
+    if (!number_in_range(&numbers[k].value)) return wrong(scene, "a declared number is not a number up to 1e100");
   }
-  if (isnan(options->tolerance)) return wrong(scene, "the tolerance is no number");
+  if (isnan(options->tolerance)) return wrong(scene, "the tolerance is not a number");
   double clock = options->clock;
-  if (!number_in_range(&clock)) return wrong(scene, "the clock is no number up to 1e100");
+  if (!number_in_range(&clock)) return wrong(scene, "the clock is not a number up to 1e100");
   *out = (struct language_settings){.image_width = options->image_width ? options->image_width : DEFAULT_WIDTH,
                                     .image_height = options->image_height ? options->image_height : DEFAULT_HEIGHT,
                                     .solver_text = options->solver,
@@ -218,8 +218,8 @@ static enum pscn_status add_points(struct pscn_scene *scene, const struct points
   for (size_t n = 0; n < to->patch_count; n++) {
     for (int k = 0; k < 16; k++) {
       if (take_point(points, n, k, to->patches[n].P[k / 4][k % 4])) continue;
-      diagnostics_error(&scene->diagnostics, NOWHERE, "patch %zu: control point [%d][%d] is no %s", n, k / 4, k % 4,
-                        points->index ? "vertex, or no number up to 1e100" : "number up to 1e100");
+      diagnostics_error(&scene->diagnostics, NOWHERE, "patch %zu: control point [%d][%d] is not a %s", n, k / 4, k % 4,
+                        points->index ? "vertex, or not a number up to 1e100" : "number up to 1e100");
       return PSCN_INPUT;
     }
   }
@@ -253,7 +253,8 @@ static enum pscn_status build(struct pscn_scene *scene, const struct origin *ori
     diagnostics_error(diagnostics, NOWHERE, "the scene takes more memory than max_memory allows");
   if (status == PSCN_OK && intersector_cut_less(scene->intersector))
     diagnostics_warning(diagnostics, NOWHERE, "memory is short: patches have fewer leaves than 'split' says");
-  return status == PSCN_USAGE ? wrong(scene, "PSCN_KERNEL asks for what this processor has not") : status;
+  return status == PSCN_USAGE ? wrong(scene, "PSCN_KERNEL names instructions that this processor does not have")
+                              : status;
 }
 
 static enum pscn_status create(const struct origin *origin, const struct pscn_options *options, struct pscn_scene **out)

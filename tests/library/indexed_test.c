@@ -119,7 +119,7 @@ TEST(test_wrong_arguments)
   assert_int_equal(pscn_scene_from_indexed(vertices[0], VERTICES - 1, patches[0], PATCHES, NULL, 0, NULL, &scene),
                    PSCN_INPUT);
   assert_string_equal(pscn_scene_messages(scene),
-                      "error: patch 1: control point [3][3] is no vertex, or no number up to 1e100\n");
+                      "error: patch 1: control point [3][3] is not a vertex, or not a number up to 1e100\n");
   assert_int_equal(pscn_bounds(scene, 0, box), PSCN_USAGE);
   pscn_scene_free(scene);
   assert_int_equal(pscn_scene_from_indexed(vertices[0], VERTICES, patches[0], PATCHES, NULL, 0, NULL, &scene), PSCN_OK);

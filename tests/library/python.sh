@@ -77,7 +77,7 @@ def fails(kind, words, call, *arguments, **options):
     else:
         raise SystemExit(f"no error: {words}")
 fails(pscn.Error, "text:1:10: error: unknown word 'loaction'", pscn.Scene.from_text, "camera { loaction 1 }")
-fails(pscn.Error, "is no number", pscn.Scene, np.full((1, 4, 4, 3), np.nan))
+fails(pscn.Error, "is not a number", pscn.Scene, np.full((1, 4, 4, 3), np.nan))
 fails(pscn.Error, "wrong", scene.nearest, [0, 0, 0], [0, 0, 0])
 fails(pscn.Error, "solver", pscn.Scene, nets, solver="nosuch")
 fails(pscn.Error, "untrusted", pscn.Scene.from_text, "global_settings { solver newton }", untrusted=True)

@@ -116,8 +116,8 @@ TEST(test_arguments)
     {{.size = sizeof(size_t) + 3, .solver = "aberth"}, "not of this version"},
     {{.size = sizeof(struct pscn_options), .solver = "abert"}, "did you mean 'aberth'?"},
     {{.size = sizeof(struct pscn_options), .tolerance = 7}, "the tolerance must be a number from"},
-    {{.size = sizeof(struct pscn_options), .tolerance = NAN}, "the tolerance is no number"},
-    {{.size = sizeof(struct pscn_options), .clock = INFINITY}, "the clock is no number"},
+    {{.size = sizeof(struct pscn_options), .tolerance = NAN}, "the tolerance is not a number"},
+    {{.size = sizeof(struct pscn_options), .clock = INFINITY}, "the clock is not a number"},
     {{.size = sizeof(struct pscn_options), .untrusted = 2}, "not of this version"},
     {{.size = sizeof(struct pscn_options), .lenient = -1}, "not of this version"},
     {{.size = sizeof(struct pscn_options), .image_width = -1}, "negative"},
@@ -142,7 +142,7 @@ TEST(test_arguments)
   points[5][1][2][0] = NAN;
   assert_int_equal(pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &scene),
                    PSCN_INPUT);
-  assert_string_equal(pscn_scene_messages(scene), "error: patch 5: control point [1][2] is no number up to 1e100\n");
+  assert_string_equal(pscn_scene_messages(scene), "error: patch 5: control point [1][2] is not a number up to 1e100\n");
   assert_int_equal(pscn_patch_count(scene), 0);
   struct pscn_camera camera, none = {{0}, {0}, {0}, {0}};
   memset(&camera, 0xff, sizeof camera);
