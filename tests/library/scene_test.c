@@ -124,7 +124,7 @@ TEST(test_arguments)
     {{.size = sizeof(struct pscn_options), .image_height = -1}, "negative"},
     {{.size = sizeof(struct pscn_options), .number_count = 1}, "numbers is NULL"},
     {{.size = sizeof(struct pscn_options), .numbers = &named_so, .number_count = 1}, "cannot be declared"},
-    {{.size = sizeof(struct pscn_options), .numbers = &infinite, .number_count = 1}, "no number up to 1e100"},
+    {{.size = sizeof(struct pscn_options), .numbers = &infinite, .number_count = 1}, "not a number up to 1e100"},
   };
   struct pscn_scene *scene;
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
