@@ -247,8 +247,12 @@ static void begin_for(struct language *language)
   if (read) {
     loop->name = sources_name(language, list->place);
     int count = 0;
-    for (const struct value *v = list->next; read && v; v = v->next)
-      read = value_to_number(language, v, &number[count++]);
+    for (const struct value *v = list->next; read && v; v = v->next, count++)
+      read = count >= 3 || value_to_number(language, v, &number[count]);
+    if (read && (count < 2 || count > 3)) {
+      language_error(language, list->place, "a #for takes two or three numbers, but this has %d", count);
+      read = false;
+    }
     loop->last = number[1];
     loop->step = number[2];
     if (number[2] == 0) language_error(language, list->place, "the step of a #for must not be 0"), read = false;
