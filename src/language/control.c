@@ -87,14 +87,20 @@ void control_leave(struct language *language)
 
 /* ---- conditions ---- */
 
+/* Takes up to `most` numbers from a list. Returns how many values are in it, or -1 after an error. */
+static int take_numbers(struct language *language, const struct value *list, int most, double out[])
+{
+  int count = 0;
+  for (const struct value *v = list; v; v = v->next, count++)
+    if (count < most && !value_to_number(language, v, &out[count])) return -1;
+  return count;
+}
+
 /* Parses what stands in parentheses behind a directive: up to `most` numbers. False after an error. */
 static bool read_numbers(struct language *language, int start, int most, double out[])
 {
   struct value *list = NULL;
-  bool read = tokens_parse(language, start, &list);
-  int count = 0;
-  for (const struct value *v = list; read && v && count < most; v = v->next)
-    read = value_to_number(language, v, &out[count++]);
+  const bool read = tokens_parse(language, start, &list) && take_numbers(language, list, most, out) >= 0;
   value_last_of_list(language, list);
   return read;
 }
@@ -246,9 +252,8 @@ static void begin_for(struct language *language)
   loop->rounds = 1;
   if (read) {
     loop->name = sources_name(language, list->place);
-    int count = 0;
-    for (const struct value *v = list->next; read && v; v = v->next, count++)
-      read = count >= 3 || value_to_number(language, v, &number[count]);
+    const int count = take_numbers(language, list->next, 3, number);
+    read = count >= 0;
     if (read && (count < 2 || count > 3)) {
       language_error(language, list->place, "a #for takes two or three numbers, but this has %d", count);
       read = false;
