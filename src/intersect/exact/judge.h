@@ -9,8 +9,8 @@
 #include "intersect/exact/sight.h"
 
 /* Work is counted in pieces examined, some 1,500 instructions each; one more for each WORK_LIMBS products of limbs of
- * their numbers. Writing a patch as the ray sees it counts as WORK_SIGHT of them, and so does zooming in on a root; looking for curves,
- * WORK_CURVES. */
+ * the numbers of one that is made exact. Writing a patch as the ray sees it counts as WORK_SIGHT of them, and so does
+ * zooming in on a root; looking for curves, WORK_CURVES. */
 enum { WORK_LIMBS = 64, WORK_SIGHT = 8, WORK_CURVES = 40 };
 
 /* Memory for nets, in limbs: 256 KB, of which a search of rays with ordinary numbers needs a tenth. */
@@ -57,8 +57,8 @@ void judge_turn(struct judge *j, uint32_t patch);
  * first. */
 void regions_search(struct judge *j);
 
-/* search.c: tells the judge of every root in the region that is nearer than `limit`, and of every place that cannot be
- * decided. The region's patch must be the current one. */
+/* search.c: reports every root in the region that is nearer than `limit`, and every place that cannot be decided. The
+ * region's patch must be the current one. */
 void search_region(struct judge *j, const struct exact_region *region);
 
 /* A t as near as this, relatively, rounds to a double next to it. */

@@ -20,25 +20,28 @@ static int net_bits(const limb *net, int limbs)
   return 0;
 }
 
+/* The leading bits that net_round keeps of the largest coefficient. */
+enum { WINDOW = 62 };
+
 int net_round(const limb *net, int limbs, double out[4][4])
 {
-  const int bits = net_bits(net, limbs), shift = net_shift(bits);
+  const int bits = net_bits(net, limbs), shift = bits > WINDOW ? bits - WINDOW : 0;
   const double unit = ldexp(1, shift - bits);
   for (int c = 0; c < 16; c++) out[c / 4][c % 4] = (double)limbs_window(net + c * limbs, limbs, shift) * unit;
   return bits;
 }
 
-bool piece_room(struct piece *out, struct pool *pool)
+limb *pool_net(struct pool *pool, int limbs)
 {
-  size_t at = pool->used;
-  for (int k = 0; k < NETS; k++) {
-    if (out->limbs[k] > PIECE_LIMBS_MAX) return false;
-    out->net[k] = pool->at + at;
-    at += 16 * (size_t)out->limbs[k];
-  }
-  if (at > pool->room) return false;
-  pool->used = at;
-  return true;
+  limb *net = pool->at + pool->used;
+  if (limbs > PIECE_LIMBS_MAX || pool->used + 16 * (size_t)limbs > pool->room) return NULL;
+  pool->used += 16 * (size_t)limbs;
+  return net;
+}
+
+wide piece_coefficient(const struct piece *piece, int k, int c, bool *exact)
+{
+  return limbs_wide(piece->net[k] + c * piece->limbs[k], piece->limbs[k], piece->exponent[k], exact);
 }
 
 void piece_depth_changes(const struct piece *piece, int limbs, limb *out)
@@ -64,7 +67,7 @@ void piece_measure(struct piece *piece)
   const int limbs = limbs_for(piece->bits[NET_W] + 2);
   piece_depth_changes(piece, limbs, change);
   piece->scale = net_round(change, limbs, piece->value[NET_W]) + piece->exponent[NET_W];
-  piece->start = (double)limbs_wide(piece->net[NET_W], piece->limbs[NET_W], piece->exponent[NET_W], &exact);
+  piece->start = (double)piece_coefficient(piece, NET_W, 0, &exact);
 }
 
 /* ---- parts, exactly ---- */
@@ -119,10 +122,10 @@ static void cubic_part(const limb *const c[4], int in, limb *const out[4], int l
 static bool part_exactly(const struct piece *piece, int axis, struct pool *pool, struct piece *out)
 {
   const int log2 = piece->log2[axis];
-  for (int k = 0; k < NETS; k++)
-    out->limbs[k] = limbs_for(piece->bits[k] + 3 * log2 + 1), out->exponent[k] = piece->exponent[k] - 3 * log2;
-  if (!piece_room(out, pool)) return false;
   for (int k = 0; k < NETS; k++) {
+    out->limbs[k] = limbs_for(piece->bits[k] + 3 * log2 + 1), out->exponent[k] = piece->exponent[k] - 3 * log2;
+    out->net[k] = pool_net(pool, out->limbs[k]);
+    if (!out->net[k]) return false;
     for (int row = 0; row < 4; row++) {
       const limb *c[4];
       limb *to[4];
@@ -287,9 +290,9 @@ limb *piece_combine(const struct piece *piece, struct weight p, struct weight q,
     bits = here > bits ? here : bits;
   }
   const int limbs = limbs_for(bits + 2);
-  if (limbs > PIECE_LIMBS_MAX || pool->used + 16 * (size_t)limbs > pool->room) return NULL;
-  limb *out = pool->at + pool->used;
-  pool->used += 16 * (size_t)limbs;
+  limb *out = pool_net(pool, limbs);
+  if (!out) return NULL;
+  memset(out, 0, 16 * (size_t)limbs * sizeof *out);
   for (int c = 0; c < 16; c++) {
     for (int k = 0; k < 2; k++) {
       const int in = piece->limbs[k];
@@ -297,7 +300,7 @@ limb *piece_combine(const struct piece *piece, struct weight p, struct weight q,
       if (weight[k].limbs == 1) limbs_scale(product, limbs, x, in, (int64_t)weight[k].at[0]);
       else limbs_product(product, limbs, x, in, weight[k].at, weight[k].limbs);
       limbs_shift(term, limbs, product, limbs, weight[k].shift);
-      if (k == 0) limbs_copy(out + c * limbs, limbs, term, limbs);
+      if (weight[k].minus) limbs_subtract(out + c * limbs, out + c * limbs, term, limbs);
       else limbs_add(out + c * limbs, out + c * limbs, term, limbs);
     }
   }
@@ -330,7 +333,7 @@ wide piece_depth(const struct piece *piece, const double at[2], double radius, d
   double rest[4][4], most = 0;
   memcpy(rest, piece->value[NET_W], sizeof rest);
   for (int c = 0; c < 16; c++) most = real_max(most, fabs(rest[c / 4][c % 4]));
-  const wide start = limbs_wide(piece->net[NET_W], piece->limbs[NET_W], piece->exponent[NET_W], exact);
+  const wide start = piece_coefficient(piece, NET_W, 0, exact);
   *error = 0;
   if (most == 0) return start;
   const double unit = ldexp(1, piece->scale);

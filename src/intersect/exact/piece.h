@@ -60,8 +60,11 @@ static inline bool piece_is_exact(const struct piece *piece) { return piece->log
 #define PIECE_GROWTH 1.81
 #define PIECE_MARGIN_OFF 2.03
 
-/* Takes memory for the nets of `out`, whose limbs are set. False if there is none, or the numbers are too long. */
-bool piece_room(struct piece *out, struct pool *pool);
+/* Takes memory for a net of so many limbs a coefficient. NULL if there is none, or the numbers are too long. */
+limb *pool_net(struct pool *pool, int limbs);
+
+/* Coefficient c of a net of an exact piece, with its exponent, as by limbs_wide. */
+wide piece_coefficient(const struct piece *piece, int k, int c, bool *exact);
 
 /* Sets bits, value, error and scale of an exact piece after its nets have been set. */
 void piece_measure(struct piece *piece);
@@ -108,8 +111,9 @@ struct piece_root {
  * that takes more digits: a few to decide it, or, if `fine`, those that a small radius takes. */
 enum piece_verdict piece_root(struct piece *piece, bool fine, struct pool *pool, struct piece_root *out);
 
-/* w at a point of the piece, which is exact, known to within `radius` in both parameters. *error: absolute bound on what it is off. If
- * that is 0 and *exact is set, w is this number; if *exact is not set, it is larger by less than the last place. */
+/* w at a point of the piece, which is exact, known to within `radius` in both parameters. *error: absolute bound on what
+ * it is off. If that is 0 and *exact is set, w is this number; if *exact is not set, it is larger by less than the last
+ * place. */
 wide piece_depth(const struct piece *piece, const double at[2], double radius, double *error, bool *exact);
 
 /* Whether w grows along that axis, more or less. */
@@ -124,18 +128,15 @@ void piece_depth_changes(const struct piece *piece, int limbs, limb *out);
 /* Bounds of w on the piece. */
 void piece_depths(const struct piece *piece, double *least, double *most);
 
-/* An integer times 2^shift. */
+/* An integer times 2^shift, or that times -1. */
 struct weight {
   const limb *at;
   int limbs, shift;
+  bool minus;
 };
 
 /* The integers' net p a + q b, exponents left aside, in memory of the pool; NULL if there is no room. */
 limb *piece_combine(const struct piece *piece, struct weight p, struct weight q, struct pool *pool, int *out_limbs);
-
-/* The leading bits of the largest coefficient that tests look at, and the bits below, of so many. */
-enum { NET_WINDOW = 62 };
-static inline int net_shift(int bits) { return bits > NET_WINDOW ? bits - NET_WINDOW : 0; }
 
 /* A net of 16 such integers as doubles: times a power of two, so that the largest is 1/2 to 1, off by PIECE_ERROR. A
  * coefficient below 0 stays so, and one that is 0 or less does not become positive. Returns the bits of the largest. */

@@ -65,11 +65,9 @@ static bool in_corner(struct placing *p)
   const int u = p->root.at[0] >= 0.5, v = p->root.at[1] >= 0.5;
   if (fabs(p->root.at[0] - u) > p->root.radius || fabs(p->root.at[1] - v) > p->root.radius) return false;
   if (!piece_corner_root(&p->piece, u, v, &p->j->pool)) return false;
-  const int limbs = p->piece.limbs[NET_W];
   p->root.at[0] = u, p->root.at[1] = v, p->root.radius = 0, p->corner = true;
   p->depth.error = 0;
-  p->depth.w = limbs_wide(p->piece.net[NET_W] + (12 * u + 3 * v) * limbs, limbs, p->piece.exponent[NET_W],
-                          &p->depth.exact);
+  p->depth.w = piece_coefficient(&p->piece, NET_W, 12 * u + 3 * v, &p->depth.exact);
   return true;
 }
 
@@ -170,7 +168,7 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
 {
   const size_t before = j->pool.used;
   const bool touched = root->radius == 0;
-  struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
+  struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = touched};
   for (int zooms = 0;; zooms++) {
     if (!piece_exact(&p.piece, &j->pool)) {
       judge_undecided(j, it->near);

@@ -69,10 +69,8 @@ static bool combine_exactly(const struct piece *piece, struct slopes *slopes, in
   const size_t before = pool->used;
   int limbs;
   for (int k = 0; k < 2; k++) slopes_exact(piece, k, slopes);
-  limb *minus = slopes->exact[d == 0 ? 0 : 1][1 - d];
-  limbs_negate(minus, slopes->limbs[d == 0 ? 0 : 1]);
-  const struct weight a = {slopes->exact[1][1 - d], slopes->limbs[1], 0},
-                      b = {slopes->exact[0][1 - d], slopes->limbs[0], 0};
+  const struct weight a = {slopes->exact[1][1 - d], slopes->limbs[1], 0, d == 1},
+                      b = {slopes->exact[0][1 - d], slopes->limbs[0], 0, d == 0};
   const limb *net = piece_combine(piece, a, b, pool, &limbs);
   if (!net) return false;
   (void)net_round(net, limbs, out->net);
@@ -324,8 +322,8 @@ bool piece_depth_turns(struct piece *piece, struct pool *pool)
   double along[2], contraction = INFINITY;
   struct piece both = *piece;
   both.net[NET_A] = piece->net[k], both.limbs[NET_A] = piece->limbs[k], both.limbs[NET_B] = limbs;
-  if (limbs <= PIECE_LIMBS_MAX && pool->used + 16 * (size_t)limbs <= pool->room) {
-    both.net[NET_B] = pool->at + pool->used, pool->used += 16 * (size_t)limbs;
+  both.net[NET_B] = pool_net(pool, limbs);
+  if (both.net[NET_B]) {
     piece_depth_changes(piece, limbs, both.net[NET_B]);
     piece_measure(&both);
     (void)make_rows(&both, pool, true, ROW_BITS, &slopes, row, along, &contraction);

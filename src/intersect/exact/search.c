@@ -45,11 +45,8 @@ static bool corner_alone(struct judge *j, const struct piece *piece, int u, int 
   double net[4][4];
   for (int side = 0; side < 4; side++) {
     const int at = 4 * (side & 1 ? u : u ? 2 : 1) + (side & 1 ? (v ? 2 : 1) : v);
-    limb minus[PIECE_LIMBS_MAX];
-    const int minus_of = side < 2 ? 0 : 1, limbs[2] = {piece->limbs[0], piece->limbs[1]};
-    const limb *x[2] = {piece->net[0] + at * limbs[0], piece->net[1] + at * limbs[1]};
-    limbs_copy(minus, limbs[minus_of], x[minus_of], limbs[minus_of]), limbs_negate(minus, limbs[minus_of]);
-    const struct weight first = {minus_of ? minus : x[1], limbs[1], 0}, second = {minus_of ? x[0] : minus, limbs[0], 0};
+    const limb *x[2] = {piece->net[0] + at * piece->limbs[0], piece->net[1] + at * piece->limbs[1]};
+    const struct weight first = {x[1], piece->limbs[1], 0, side >= 2}, second = {x[0], piece->limbs[0], 0, side < 2};
     const size_t before = j->pool.used;
     int length;
     const limb *combined = piece_combine(piece, first, second, &j->pool, &length);
@@ -75,12 +72,15 @@ static bool decide_corner(struct judge *j, struct waiting *it)
 
 /* ---- the search ---- */
 
-/* Tells of a point of a piece that is left undecided. */
-static void tell_open(struct judge *j, const struct waiting *it)
+/* Whether the piece is too small to be divided; a point of it is then reported as undecided. */
+static bool gives_up(struct judge *j, const struct waiting *it)
 {
-  const double u = real_clamp((double)(it->piece.low[0] + it->piece.size[0] / 2), 0, 1);
-  const double v = real_clamp((double)(it->piece.low[1] + it->piece.size[1] / 2), 0, 1);
+  const struct piece *piece = &it->piece;
+  if (piece->size[0] > LEAST_SIZE || piece->size[1] > LEAST_SIZE) return false;
+  const double u = real_clamp((double)(piece->low[0] + piece->size[0] / 2), 0, 1);
+  const double v = real_clamp((double)(piece->low[1] + piece->size[1] / 2), 0, 1);
   judge_maybe(j, u, v, it->near / 2 + it->far / 2, it->far / 2 - it->near / 2, it->near);
+  return true;
 }
 
 /* Where a and b are multiples of each other the ray meets curves. If t changes along them all over the piece, none of
@@ -89,10 +89,7 @@ static bool decide_curves(struct judge *j, struct waiting *it)
 {
   j->doubt |= j->all;
   judge_spend(j, WORK_CURVES);
-  if (it->near > j->asked->ray->t_min && piece_depth_turns(&it->piece, &j->pool)) return true;
-  if (it->piece.size[0] > LEAST_SIZE || it->piece.size[1] > LEAST_SIZE) return false;
-  tell_open(j, it);
-  return true;
+  return (it->near > j->asked->ray->t_min && piece_depth_turns(&it->piece, &j->pool)) || gives_up(j, it);
 }
 
 /* Returns whether the piece is done with. If not, all that it may hold is in the box. */
@@ -104,10 +101,7 @@ static bool decide(struct judge *j, struct waiting *it, double box[2][2])
   const enum piece_verdict verdict = piece_root(&it->piece, false, &j->pool, &root);
   memcpy(box, root.box, sizeof root.box);
   if (verdict == PIECE_ROOT) place_root(j, it, &root);
-  if (verdict != PIECE_OPEN || decide_corner(j, it)) return true;
-  if (it->piece.size[0] > LEAST_SIZE || it->piece.size[1] > LEAST_SIZE) return false;
-  tell_open(j, it);
-  return true;
+  return verdict != PIECE_OPEN || decide_corner(j, it) || gives_up(j, it);
 }
 
 static bool beyond(const struct judge *j, const struct waiting *it)
@@ -230,17 +224,16 @@ static bool region_begin(struct judge *j, const struct exact_region *region, str
   return true;
 }
 
-/* A border all of whose points are on the ray: a pole, which is met there, or a line along the ray. */
-static void tell_met(struct judge *j, int border)
+/* A border all of whose points are on the ray: a pole, which is hit there, or a line along the ray. */
+static void report_met(struct judge *j, int border)
 {
   double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
   const struct piece *plane = &j->sight.plane;
   const bool pole = edge_is_point(P, border);
   double near = INFINITY, at[2];
   for (int n = 0; n < 4; n++) {
-    const int limbs = plane->limbs[NET_W];
     struct depth depth = {.error = 0};
-    depth.w = limbs_wide(plane->net[NET_W] + edge_at(border, n) * limbs, limbs, plane->exponent[NET_W], &depth.exact);
+    depth.w = piece_coefficient(plane, NET_W, edge_at(border, n), &depth.exact);
     const wide t = depth.w / j->sight.along;
     near = real_min(near, (double)t);
     if (!pole) continue;
@@ -282,7 +275,7 @@ void search_region(struct judge *j, const struct exact_region *region)
   }
   if (room) {
     for (int k = 0; k < 4; k++)
-      if (j->sight.met & waiting[0].piece.borders & 1u << k) tell_met(j, k);
+      if (j->sight.met & waiting[0].piece.borders & 1u << k) report_met(j, k);
     search_run(j, waiting, count);
   } else {
     judge_left(j, region->near, INFINITY);

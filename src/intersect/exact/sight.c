@@ -41,9 +41,9 @@ static bool axis_make(double (*P)[4][3], const struct ray *ray, int axis, struct
     low = x[c].exponent < low ? x[c].exponent : low, high = top > high ? top : high;
   }
   if (high == INT32_MIN) low = high = 0;
-  *out = (struct axis_net){pool->at + pool->used, limbs_for(high - low + 1), low, true};
-  if (out->limbs > PIECE_LIMBS_MAX || pool->used + 16 * (size_t)out->limbs > pool->room) return false;
-  pool->used += 16 * (size_t)out->limbs;
+  *out = (struct axis_net){NULL, limbs_for(high - low + 1), low, true};
+  out->net = pool_net(pool, out->limbs);
+  if (!out->net) return false;
   limb from[PIECE_LIMBS_MAX], one[1];
   for (int c = 17; c-- > 0;) {
     limb *to = c < 16 ? out->net + c * out->limbs : from;
@@ -83,14 +83,15 @@ static bool plane_make(const struct axis_net *y[2], const double d[2], struct po
   const bool one = weight[1].number == 0;
   const int least = one || exponent[0] < exponent[1] ? exponent[0] : exponent[1];
   struct piece both = {.net = {y[0]->net, y[1]->net}, .limbs = {y[0]->limbs, y[1]->limbs}};
-  const limb number[2] = {(limb)weight[0].number, (limb)-weight[1].number};
+  const limb number[2] = {(limb)weight[0].number, (limb)weight[1].number};
   for (int n = 0; n < 2; n++)
     for (int c = 0; c < 16; c++) {
       const int bits = limbs_bits(y[n]->net + c * y[n]->limbs, y[n]->limbs);
       both.bits[n] = bits > both.bits[n] ? bits : both.bits[n];
     }
-  out->net[k] = piece_combine(&both, (struct weight){&number[0], 1, exponent[0] - least},
-                              (struct weight){&number[1], 1, one ? 0 : exponent[1] - least}, pool, &out->limbs[k]);
+  out->net[k] = piece_combine(&both, (struct weight){&number[0], 1, exponent[0] - least, false},
+                              (struct weight){&number[1], 1, one ? 0 : exponent[1] - least, true}, pool,
+                              &out->limbs[k]);
   out->exponent[k] = least;
   if (out->net[k]) trim(out, k);
   return out->net[k];
@@ -170,9 +171,8 @@ static bool on_line(const struct piece *piece, int border)
 static bool divide(struct piece *piece, int k, int border, struct pool *pool)
 {
   const int in = piece->limbs[k], limbs = in + 1, inward = edge_inward(border);
-  if (limbs > PIECE_LIMBS_MAX || pool->used + 16 * (size_t)limbs > pool->room) return false;
-  limb *out = pool->at + pool->used;
-  pool->used += 16 * (size_t)limbs;
+  limb *out = pool_net(pool, limbs);
+  if (!out) return false;
   static const limb weight[4][2] = {{9, 0}, {3, 3}, {3, 1}, {0, 3}};
   for (int n = 0; n < 4; n++) {
     const int first = edge_at(border, n);
@@ -194,10 +194,9 @@ static bool set_on(const struct piece *from, int kept, int border, struct pool *
 {
   const int limbs = from->limbs[kept];
   *out = *from;
-  if (pool->used + 16 * ((size_t)limbs + 1) > pool->room) return false;
-  out->net[NET_A] = pool->at + pool->used, out->limbs[NET_A] = limbs, out->exponent[NET_A] = from->exponent[kept];
-  out->net[NET_B] = out->net[NET_A] + 16 * limbs, out->limbs[NET_B] = 1, out->exponent[NET_B] = 0;
-  pool->used += 16 * ((size_t)limbs + 1);
+  out->net[NET_A] = pool_net(pool, limbs), out->limbs[NET_A] = limbs, out->exponent[NET_A] = from->exponent[kept];
+  out->net[NET_B] = pool_net(pool, 1), out->limbs[NET_B] = 1, out->exponent[NET_B] = 0;
+  if (!out->net[NET_A] || !out->net[NET_B]) return false;
   for (int n = 0; n < 4; n++) {
     for (int row = 0; row < 4; row++) {
       const int at = edge_at(border, n) + row * edge_inward(border);
@@ -220,12 +219,10 @@ static bool exchange(struct sight *s, int border, struct pool *pool)
   if (row_value(piece, kept, border, largest) == 0) kept = row_zero(piece, 0, border), largest = 0;
   while (limbs_zero(at_border(piece, kept, border, largest), piece->limbs[kept])) largest++;
   /* the combination b_p a - a_p b */
-  limb minus[PIECE_LIMBS_MAX];
-  limbs_copy(minus, piece->limbs[0], at_border(piece, 0, border, largest), piece->limbs[0]);
-  limbs_negate(minus, piece->limbs[0]);
   int limbs;
-  limb *net = piece_combine(piece, (struct weight){at_border(piece, 1, border, largest), piece->limbs[1], 0},
-                            (struct weight){minus, piece->limbs[0], 0}, pool, &limbs);
+  limb *net = piece_combine(piece, (struct weight){at_border(piece, 1, border, largest), piece->limbs[1], 0, false},
+                            (struct weight){at_border(piece, 0, border, largest), piece->limbs[0], 0, true}, pool,
+                            &limbs);
   if (!net) return false;
   bool zero = true;
   for (int c = 0; c < 16 && zero; c++) zero = limbs_zero(net + c * limbs, limbs);

@@ -77,8 +77,7 @@ static bool direction_at(const struct piece *plane, int at, struct direction *ou
 {
   wide x[2];
   bool exact;
-  for (int k = 0; k < 2; k++)
-    x[k] = limbs_wide(plane->net[k] + at * plane->limbs[k], plane->limbs[k], plane->exponent[k], &exact);
+  for (int k = 0; k < 2; k++) x[k] = piece_coefficient(plane, k, at, &exact);
   const wide size = wide_max(wide_abs(x[0]), wide_abs(x[1]));
   if (size > 0) *out = (struct direction){(double)(x[0] / size), (double)(x[1] / size)};
   return size > 0;
@@ -132,7 +131,7 @@ static bool pole_directions(const struct piece *plane, const struct wedge *w, st
     for (int n = 0; n < 4; n++) {
       const int at = edge_at(w->pole, w->in & 1 ? 3 - n : n) + row * edge_inward(w->pole);
       for (int k = 0; k < 2; k++) {
-        x[n][k] = limbs_wide(plane->net[k] + at * plane->limbs[k], plane->limbs[k], plane->exponent[k], &exact);
+        x[n][k] = piece_coefficient(plane, k, at, &exact);
         size = wide_max(size, wide_abs(x[n][k]));
       }
     }
