@@ -1,72 +1,17 @@
 /* Proves of pscn.h that answers are the intersector's, each depending on its ray alone, whatever the order of rays, the
- * strides, the caller's rounding mode and the other threads; and that every member of an answer is written. */
+ * strides and the caller's rounding mode; and that every member of an answer is written. */
 #define _GNU_SOURCE /* feenableexcept */
 #include <fenv.h>
 #include <float.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdbool.h>
 #include <string.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
 
-#include "library/ball.h"
-#include "library/pscn.h"
-
-#include "cmocka_test.h"
+#include "library/ball_rays.h"
 #include "worse.h"
-
-enum { COUNT = 500 };
-
-struct rays {
-  struct pscn_scene *scene;
-  struct pscn_ray ray[COUNT];
-  struct pscn_hit hit[COUNT];
-};
-
-static double random_unit(uint64_t *seed)
-{
-  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-  return (double)(*seed >> 11) * 0x1p-53;
-}
-
-static struct pscn_scene *make_ball(void)
-{
-  double points[BALL_PATCHES][4][4][3];
-  struct pscn_scene *scene;
-  ball_points(points);
-  assert_int_equal(pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &scene),
-                   PSCN_OK);
-  return scene;
-}
-
-/* Rays of all directions from around the ball and from within; some at its poles and seams. */
-static int setup(void **state)
-{
-  static struct rays rays;
-  uint64_t seed = 1;
-  for (int n = 0; n < COUNT; n++) {
-    struct pscn_ray *ray = &rays.ray[n];
-    for (int k = 0; k < 3; k++) {
-      const double reach = n % 5 == 0 ? 0.5 : 1.25,
-                   at = n % 7 == 0 && k != 1 ? 0 : reach * (2 * random_unit(&seed) - 1);
-      ray->origin[k] = n % 5 == 0 ? at : 6 * random_unit(&seed) - 3;
-      ray->direction[k] = at - (n % 5 == 0 ? 0.1 : ray->origin[k]);
-    }
-    ray->t_min = 0;
-    ray->t_max = INFINITY;
-  }
-  rays.scene = make_ball();
-  *state = &rays;
-  return pscn_nearest(rays.scene, COUNT, rays.ray, sizeof *rays.ray, rays.hit, sizeof *rays.hit) == PSCN_OK ? 0 : -1;
-}
-
-static int teardown(void **state)
-{
-  pscn_scene_free(((struct rays *)*state)->scene);
-  return 0;
-}
 
 static double length(const double a[3]) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
@@ -465,77 +410,6 @@ static void test_previous(void **state)
   pscn_scene_free(scene);
 }
 
-/* ---- threads ---- */
-
-/* The stack that pscn.h asks for, and our own arrays. Sanitizers need more. */
-enum { THREADS = 4, TURNS = 6, STACK = (1024 << 10) + COUNT * 200 };
-
-/* Rays past a pole at 2^-1 ... 2^-64, from outside and along the surface, which take the deepest search. */
-static char *ask_at_pole(const struct pscn_scene *scene)
-{
-  for (int n = 0; n < 512; n++) {
-    const double off = ldexp(1, -1 - n / 8), x = off * cos(n % 8), z = off * sin(n % 8);
-    const struct pscn_ray rays[2] = {{{x, 3, z}, {0, -1, 0}, 0, INFINITY}, {{x, 1, z}, {1, -off, 0.25}, 0, INFINITY}};
-    struct pscn_hit hits[2];
-    if (pscn_nearest(scene, 2, rays, sizeof *rays, hits, sizeof *hits) != PSCN_OK) return "no answer at a pole";
-    if (hits[0].verdict == PSCN_MISS) return "a ray goes through the pole";
-  }
-  return NULL;
-}
-
-/* Again and again asks the shared scene, and builds, asks and frees its own one. Returns what went wrong. */
-static void *thread_run(void *context)
-{
-  const struct rays *rays = context;
-  struct pscn_hit hits[COUNT];
-  char *wrong = ask_at_pole(rays->scene);
-  if (wrong) return wrong;
-  for (int turn = 0; turn < TURNS; turn++) {
-    memset(hits, 0, sizeof hits);
-    if (pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||
-        memcmp(hits, rays->hit, sizeof hits) != 0)
-      return "the shared scene answers otherwise";
-    struct pscn_hits counts[COUNT];
-    if (pscn_all(rays->scene, COUNT, rays->ray, sizeof *rays->ray, counts, sizeof *counts, hits, sizeof *hits, 1) !=
-        PSCN_OK)
-      return "all hits cannot be had";
-    for (int n = 0; n < COUNT; n++) /* all members up to the normal */
-      if (memcmp(&hits[n], &rays->hit[n], offsetof(struct pscn_hit, normal)) != 0 ||
-          hits[n].patch != rays->hit[n].patch)
-        return "the first of all hits is not the nearest";
-    struct pscn_scene *own;
-    double points[BALL_PATCHES][4][4][3];
-    ball_points(points);
-    if (pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &own) != PSCN_OK ||
-        pscn_nearest(own, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||
-        memcmp(hits, rays->hit, sizeof hits) != 0)
-      return "a scene of its own answers otherwise";
-    pscn_scene_free(own);
-    if (pscn_scene_from_text("wrong", "camera { loaction }", 19, NULL, &own) != PSCN_INPUT ||
-        pscn_message_count(own) == 0)
-      return "a wrong text has no message";
-    pscn_scene_free(own);
-  }
-  return NULL;
-}
-
-static void test_threads(void **state)
-{
-  pthread_t threads[THREADS];
-  pthread_attr_t attributes;
-  assert_int_equal(pthread_attr_init(&attributes), 0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  assert_int_equal(pthread_attr_setstacksize(&attributes, STACK), 0);
-#endif
-  for (int k = 0; k < THREADS; k++) assert_int_equal(pthread_create(&threads[k], &attributes, thread_run, *state), 0);
-  for (int k = 0; k < THREADS; k++) {
-    void *wrong;
-    assert_int_equal(pthread_join(threads[k], &wrong), 0);
-    if (wrong) fail_msg("%s", (const char *)wrong);
-  }
-  assert_int_equal(pthread_attr_destroy(&attributes), 0);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -551,7 +425,6 @@ int main(void)
     cmocka_unit_test(test_arithmetic),
     cmocka_unit_test(test_underflow),
     cmocka_unit_test(test_previous),
-    cmocka_unit_test(test_threads),
   };
-  return cmocka_run_group_tests(tests, setup, teardown);
+  return cmocka_run_group_tests(tests, ball_rays_setup, ball_rays_teardown);
 }
