@@ -23,7 +23,7 @@ bool class_wanted(const struct situation_class *class)
   return !only || strstr(class->name, only);
 }
 
-static void method_of(const struct class_form *form, struct method *out)
+void class_method(const struct class_form *form, struct method *out)
 {
   const struct solver *solver = solver_find(form->solver, strlen(form->solver));
   assert_non_null(solver);
@@ -35,7 +35,7 @@ void class_trials_create(struct class_trials *trials, const struct situation *s)
 {
   for (int m = 0; m < CLASS_FORMS; m++) {
     struct method method;
-    method_of(&class_forms[m], &method);
+    class_method(&class_forms[m], &method);
     if (m > 0) trial_create_beside(&trials->form[m], &trials->form[0], &method);
     else trial_create(&trials->form[0], (const double(*)[4][4][3])s->P, s->count, &method);
   }

@@ -21,6 +21,7 @@ struct class_form {
 };
 enum { CLASS_FORMS = 7 };
 extern const struct class_form class_forms[CLASS_FORMS];
+void class_method(const struct class_form *form, struct method *out);
 
 /* A situation given to all forms; they share the reference of the first. */
 struct class_trials {

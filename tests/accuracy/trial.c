@@ -56,10 +56,20 @@ void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count,
   trial_start(trial);
 }
 
+/* Patches of which all have the first solver. The caller frees them. */
+static struct scene_patch *patches_like(const struct scene *scene)
+{
+  struct scene_patch *patches = calloc(scene->patch_count + 1, sizeof *patches);
+  assert_non_null(patches);
+  for (size_t n = 0; n < scene->patch_count; n++) patches[n] = scene->patches[n], patches[n].solver = 0;
+  return patches;
+}
+
 void trial_create_beside(struct trial *trial, const struct trial *first, const struct method *solver)
 {
   *trial = (struct trial){
     .scene = first->scene, .solver = *solver, .reference = first->reference, .reference_borrowed = true};
+  trial->own_patches = trial->scene.patches = patches_like(&first->scene);
   trial->scene.solvers = &trial->solver;
   trial->scene.solver_count = 1;
   start_intersector(trial);
