@@ -6,10 +6,10 @@ for device in /dev/zero /dev/full /dev/null /dev/random; do
   within pscn dump $device
   within pscn render $device -o a.png
 done
-echo '#include "/dev/zero"' >device.pscn
+mkfifo pipe # without a writer
+printf '#include "%s"\n' /dev/zero pipe . >device.pscn
 within pscn dump device.pscn
 # A pipe is read once, whatever its name.
-mkfifo pipe
 cat "$scene" >pipe &
 pscn dump pipe | cmp - <(pscn dump "$scene") && echo same
 pscn dump <(cat "$scene") | cmp - <(pscn dump "$scene") && echo same
@@ -79,6 +79,6 @@ touch deep34.inc
 for k in 2 1; do within pscn dump deep$k.inc 2>&1 | grep 'rror\|exit\|background'; done
 printf '%4000s' '' >blank.inc
 for count in 9999 10000; do
-  yes '#include "blank.inc"' | head -n $count >often.pscn
+  yes $'#include "blank.inc"\n#include "./blank.inc"' | head -n $count >often.pscn
   within pscn dump often.pscn --max-memory 20M 2>&1 | grep 'rror\|exit\|background'
 done

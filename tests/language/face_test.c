@@ -1,4 +1,5 @@
-/* The face of the language: statuses, settings, solver texts, and texts too long or too deep to stand in a file. */
+/* The face of the language: settings, solver texts, texts too long to stand in a file, and what stands in a scene several
+ * times. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/table.h"
 #include "cmocka_test.h"
 #include "language/language.h"
 
@@ -34,21 +36,6 @@ static enum status load(const char *text, size_t length, const struct language_s
   return language_load_text("<text>", text, length, settings, &diagnostics, out);
 }
 
-TEST(test_files)
-{
-  struct scene *scene = NULL;
-  struct diagnostics diagnostics = listener();
-  assert_int_equal(language_load("no/such.pscn", &PLAIN, &diagnostics, &scene), STATUS_FILE);
-  assert_string_equal(told, "error: no/such.pscn: there is no such file\n");
-  diagnostics = listener();
-  assert_int_equal(language_load("ok", &PLAIN, &diagnostics, &scene), STATUS_FILE);
-  assert_string_equal(told, "error: ok: it is a directory\n");
-  diagnostics = listener();
-  assert_int_equal(language_load("ok/empty.pscn/x", &PLAIN, &diagnostics, &scene), STATUS_FILE);
-  assert_string_equal(told, "error: ok/empty.pscn/x: a part of the path is no directory\n");
-  assert_null(scene);
-}
-
 TEST(test_unreadable_file)
 {
   if (geteuid() == 0) skip(); /* root may read everything */
@@ -61,26 +48,6 @@ TEST(test_unreadable_file)
   assert_non_null(strstr(told, "permission denied"));
   close(file);
   unlink(path);
-}
-
-TEST(test_size)
-{
-  static const char text[] = "background { rgb <image_width, image_height, image_width / image_height> }";
-  struct scene *scene = NULL;
-  assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
-  assert_true(scene->background[0] == 320 && scene->background[1] == 200 && scene->background[2] == 1.6);
-  scene_destroy(scene);
-}
-
-TEST(test_solver_text)
-{
-  struct method options = {0};
-  struct diagnostics diagnostics = listener();
-  assert_int_equal(
-    language_parse_solver(" aberth { polish off /* a comment */ split 7\n tolerance 1e-7 }", &diagnostics, &options),
-    STATUS_OK);
-  assert_string_equal(options.roots.solver->name, "aberth");
-  assert_true(!options.polish && options.split == 7 && options.roots.tolerance == 1e-7 && diagnostics.error_count == 0);
 }
 
 TEST(test_wrong_solver_texts)
@@ -163,8 +130,6 @@ TEST(test_override)
   assert_true(scene->solvers[scene->patches[0].solver].roots.tolerance == 1e-5);
   scene_destroy(scene);
 
-  settings.tolerance = 0;
-  assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
   settings = (struct language_settings){
     .image_width = 1, .image_height = 1, .solver_text = "nothing", .tolerance = NAN};
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
@@ -221,6 +186,17 @@ TEST(test_long_texts)
   }
 }
 
+/* Nobody can predict where a name lies in a table, or a text could be made that takes quadratic time to read. */
+TEST(test_no_two_tables_are_alike)
+{
+  struct arena *arena = arena_create();
+  struct table one = {0}, other = {0};
+  struct table_entry a, b;
+  assert_true(table_add(&one, arena, &a, "Name", 4) && table_add(&other, arena, &b, "Name", 4));
+  assert_true(a.hash != b.hash);
+  arena_destroy(arena);
+}
+
 /* A quarter of a million names, many more that are unknown, and ten thousand files that forget theirs. It would take
  * minutes if any step took time in proportion to all names. */
 TEST(test_many_names)
@@ -242,70 +218,6 @@ TEST(test_many_names)
   assert_int_equal(fclose(memory), 0);
   assert_int_equal(load(text, length, &PLAIN, &scene), STATUS_INPUT);
   free(text);
-}
-
-/* Of files that include each other each text is held once. */
-TEST(test_included_often)
-{
-  struct language_settings settings = PLAIN;
-  struct scene *scene = NULL;
-  struct diagnostics diagnostics = listener();
-  settings.max_memory = 200 * 1000;
-  assert_int_equal(language_load("ok/includes_often.pscn", &settings, &diagnostics, &scene), STATUS_OK);
-  scene_destroy(scene);
-  settings.max_memory = 10 * 1000;
-  diagnostics = listener();
-  assert_int_equal(language_load("ok/includes_often.pscn", &settings, &diagnostics, &scene), STATUS_LIMIT);
-  assert_non_null(strstr(told, "--max-memory allows more"));
-}
-
-/* Patches are counted before any is built, so too many are refused at once. */
-TEST(test_max_memory)
-{
-  char text[10000] = "#declare U = bicubic_patch { type 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 }";
-  for (int k = 0; k < 24; k++) strcat(text, "#declare U = union { object { U } object { U } }");
-  strcat(text, "object { U }");
-  struct language_settings settings = PLAIN;
-  struct scene *scene = NULL;
-  settings.max_memory = (size_t)2 << 30;
-  assert_int_equal(load(text, strlen(text), &settings, &scene), STATUS_LIMIT);
-  assert_non_null(strstr(told, "the scene has more than 1431655 patches; --max-memory allows more"));
-  assert_null(scene);
-}
-
-/* Include files must be files. A pipe without a writer is not waited for. */
-TEST(test_included_kinds)
-{
-  char folder[] = "/tmp/pscn-XXXXXX", path[64], text[200];
-  assert_non_null(mkdtemp(folder));
-  (void)snprintf(path, sizeof path, "%s/pipe", folder);
-  assert_int_equal(mkfifo(path, 0600), 0);
-  const char *const names[] = {path, "/dev/zero", "/dev/null", "ok"};
-  static const char *const reasons[] = {": it is a pipe\n", ": it is a device\n", ": it is a device\n",
-                                        ": it is a directory\n"};
-  for (size_t k = 0; k < 4; k++) {
-    struct scene *scene = NULL;
-    (void)snprintf(text, sizeof text, "#include \"%s\"", names[k]);
-    assert_int_equal(load(text, strlen(text), &PLAIN, &scene), STATUS_INPUT);
-    assert_non_null(strstr(told, reasons[k]));
-  }
-  struct scene *scene = NULL;
-  struct diagnostics diagnostics = listener();
-  assert_int_equal(language_load("/dev/zero", &PLAIN, &diagnostics, &scene), STATUS_FILE);
-  unlink(path);
-  rmdir(folder);
-}
-
-/* 2^150 copies of an empty object take no time. */
-TEST(test_many_empty_copies)
-{
-  char text[10000] = "#declare U = union { }";
-  for (int k = 0; k < 150; k++) strcat(text, "#declare U = union { object { U } object { U } }");
-  strcat(text, "object { U }");
-  struct scene *scene = NULL;
-  assert_int_equal(load(text, strlen(text), &PLAIN, &scene), STATUS_OK);
-  assert_int_equal(scene->patch_count, 0);
-  scene_destroy(scene);
 }
 
 #define NET                                                                                  \

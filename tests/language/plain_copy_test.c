@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -14,29 +15,27 @@
 static char place[] = "/tmp/pscn-test-XXXXXX";
 
 /* A folder with two others: sub for include files, out for the copies. */
-static int make_folders(void **state)
+static bool make_folders(void)
 {
-  (void)state;
-  return mkdtemp(place) == NULL || chdir(place) != 0 || mkdir("sub", 0700) != 0 || mkdir("out", 0700) != 0;
+  return mkdtemp(place) && chdir(place) == 0 && mkdir("sub", 0700) == 0 && mkdir("out", 0700) == 0;
 }
 
-static int empty_folder(const char *name)
+static bool empty_folder(const char *name)
 {
   char path[300];
   DIR *folder = opendir(name);
-  if (folder == NULL) return 1;
+  if (folder == NULL) return false;
   for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
     snprintf(path, sizeof path, "%s/%s", name, entry->d_name);
     (void)unlink(path);
   }
-  return closedir(folder);
+  return closedir(folder) == 0;
 }
 
-static int remove_folders(void **state)
+static bool remove_folders(void)
 {
-  (void)state;
-  return empty_folder("sub") || empty_folder("out") || rmdir("sub") || rmdir("out") || empty_folder(".") ||
-         rmdir(place);
+  return empty_folder("sub") && empty_folder("out") && rmdir("sub") == 0 && rmdir("out") == 0 && empty_folder(".") &&
+         rmdir(place) == 0;
 }
 
 static void copy(const char *scene)
@@ -47,9 +46,8 @@ static void copy(const char *scene)
   assert_string_equal(word, "");
 }
 
-static void the_scenes_folder_comes_first(void **state)
+TEST(the_scenes_folder_comes_first)
 {
-  (void)state;
   put_text("scene.pscn", "#include \"sub/a.inc\"\n");
   put_text("sub/a.inc", "#include \"b.inc\"\n#include \"c.inc\"\n");
   put_text("b.inc", "// beside the scene\n");
@@ -63,9 +61,8 @@ static void the_scenes_folder_comes_first(void **state)
 }
 
 /* Even a file that includes itself, or the scene, in a branch that is never read. */
-static void a_file_is_copied_once(void **state)
+TEST(a_file_is_copied_once)
 {
-  (void)state;
   put_text("scene.pscn", "#include \"d.inc\"\n#include \"d.inc\"\n");
   put_text("d.inc", "#ifdef (Never) #include \"d.inc\" #include \"scene.pscn\" #end\n");
   copy("scene.pscn");
@@ -75,9 +72,8 @@ static void a_file_is_copied_once(void **state)
 }
 
 /* A name as long as a file system takes, to which a number is added. */
-static void a_long_name_is_cut(void **state)
+TEST(a_long_name_is_cut)
 {
-  (void)state;
   char name[300], scene[600];
   snprintf(name, sizeof name, "sub/%0251d.inc", 0);
   put_text(name, "// long\n");
@@ -91,9 +87,8 @@ static void a_long_name_is_cut(void **state)
 }
 
 /* Blanks replace them, so that POV-Ray's messages name the scene's lines. */
-static void solver_statements_are_left_out(void **state)
+TEST(solver_statements_are_left_out)
 {
-  (void)state;
   static const struct {
     const char *scene, *copy;
   } cases[] = {
@@ -120,9 +115,8 @@ static void solver_statements_are_left_out(void **state)
 }
 
 /* It may be in a branch that is not read. */
-static void what_is_not_found_is_left_alone(void **state)
+TEST(what_is_not_found_is_left_alone)
 {
-  (void)state;
   static const char scene[] = "#include \"none.inc\" #include \"out\"";
   put_text("scene.pscn", scene);
   copy("scene.pscn");
@@ -130,9 +124,8 @@ static void what_is_not_found_is_left_alone(void **state)
 }
 
 /* What POV-Ray could do with files is found wherever it stands. */
-static void words_that_use_files_are_found(void **state)
+TEST(words_that_use_files_are_found)
 {
-  (void)state;
   static const struct {
     const char *scene, *word;
   } cases[] = {
@@ -161,9 +154,8 @@ static void words_that_use_files_are_found(void **state)
   }
 }
 
-static void a_disk_that_is_full_is_told(void **state)
+TEST(a_disk_that_is_full_is_told)
 {
-  (void)state;
   static char text[1 << 20];
   const char *reason = NULL;
   char word[PLAIN_COPY_WORD_SIZE];
@@ -183,14 +175,7 @@ static void a_disk_that_is_full_is_told(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_scenes_folder_comes_first),
-    cmocka_unit_test(a_file_is_copied_once),
-    cmocka_unit_test(a_long_name_is_cut),
-    cmocka_unit_test(solver_statements_are_left_out),
-    cmocka_unit_test(what_is_not_found_is_left_alone),
-    cmocka_unit_test(words_that_use_files_are_found),
-    cmocka_unit_test(a_disk_that_is_full_is_told),
-  };
-  return cmocka_run_group_tests(tests, make_folders, remove_folders);
+  if (!make_folders()) return 1;
+  const int failed = test_run();
+  return remove_folders() ? failed : 1;
 }
