@@ -86,6 +86,7 @@ static enum status reading_create(struct reading *r, const struct language_setti
 static void reading_destroy(struct reading *r)
 {
   sources_close(&r->language);
+  memory_free(r->language.randoms.at);
   arena_destroy(r->language.arena);
 }
 

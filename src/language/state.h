@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/diagnostics.h"
+#include "base/memory.h"
 
 /* The most blocks open within each other, and declared objects within declared objects. */
 enum { MAX_NESTING = 200 };
@@ -87,7 +88,7 @@ struct language {
   struct span left_out_last; /* its last place */
   struct open_array *array;  /* the innermost that is open */
   struct value *list;        /* what a directive's parentheses hold */
-  struct randoms *randoms;   /* the generators that seed has made */
+  struct growing randoms;    /* the states of the generators that seed has made, uint32_t */
   struct messages *messages; /* what #debug says */
   struct tokens *tokens;
   struct texture *texture;               /* the innermost that is open */
