@@ -19,28 +19,17 @@
 
 %code {
 #include "base/memory.h"
-#include "language/arrays.h"
 #include "language/camera.h"
 #include "language/declare.h"
-#include "language/functions.h"
 #include "language/objects.h"
 #include "language/settings.h"
 #include "language/solver_statement.h"
-#include "language/strings.h"
 #include "language/syntax_errors.h"
 #include "language/tokens.h"
 
 #define YYSTACK_USE_ALLOCA 0
 #define YYMALLOC(size) memory_alloc(1, size)
 #define YYFREE memory_free
-
-/* In the action of an `error` item: the parser goes on with the token at which tokens_recover stops. */
-#define RECOVER() \
-  do { \
-    yyerrok; \
-    yyclearin; \
-    if (!tokens_recover(language)) YYABORT; \
-  } while (0)
 
 static int pscn_lex(PSCN_STYPE *value, struct language *language)
 {
@@ -91,7 +80,7 @@ static void pscn_error(struct language *language, const char *message)
 %token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use makes POV-Ray warn */
 %token <place> SOLVER "solver"
 
-%type <value> expression condition name string value colour spaced shade solid array quantity
+%type <value> expression condition name named string value colour spaced shade solid array quantity
 %type <list> list parts indices more_indices target arguments
 %type <index> camera_vector
 %type <place> part component solver method modifier
@@ -157,13 +146,22 @@ statement:
   | object                                     { scene_add(language, $1); }
   | solver                                     { solver_misplaced(language, $1); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 /* May stand between the items of every block. */
 foreign:
     IGNORED                                    { tokens_pass(language); }
   | FOREIGN                                    { language_lacks(language, $1, $1); tokens_pass(language); }
+  | wrong
+  ;
+
+/* The parser goes on with the token at which tokens_recover stops. */
+wrong: error
+    {
+      yyerrok;
+      yyclearin;
+      if (!tokens_recover(language)) YYABORT;
+    }
   ;
 
 directive:
@@ -178,7 +176,6 @@ default_items: %empty | default_items default_item;
 default_item:
     surface                                    { texture_set_default(language, $1); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 declared_value: declare shade ';'              { declare_value(language, $1, $2); }
   | declare shade %prec ITEM                   { declare_open(language, $1, $2); };
@@ -214,7 +211,7 @@ element:
   | solid                                      { array_given(language, $1); value_last(language, $1); }
   | texture_block                              { array_given(language, value_last(language, value_of_texture(language, $1))); }
   | '{' { array_row(language, $1); } elements '}' { array_row_end(language, $4); }
-  | error                                      { RECOVER(); }
+  | wrong
   ;
 
 /* ---- values ---- */
@@ -227,24 +224,23 @@ expression:
     NUMBER                                     { $$ = value_of_number(language, *language->number, $1); }
   | POINT                                      { $$ = value_of_vector(language, language->number, $1); }
   | STRING                                     { $$ = value_of_string(language, $1); }
-  | name
-  | name indices %prec ITEM                    { $$ = value_element(language, $1, $2, $1->place); }
+  | named
   | X                                          { $$ = value_axis(language, 0, $1); }
   | Y                                          { $$ = value_axis(language, 1, $1); }
   | Z                                          { $$ = value_axis(language, 2, $1); }
   | CONSTANT                                   { $$ = value_constant(language, $1); }
   | FUNCTION '(' list ')'                      { $$ = value_function(language, $3, $1, span_join($1, $4)); }
   | DEFINED '(' WORD ')'                       { $$ = value_defined(language, $3, span_join($1, $4)); }
-  | '(' condition ')'                          { $$ = value_alone(language, $2, span_join($1, $3)); }
+  | '(' condition ')'                          { $$ = value_unary(language, '(', $2, span_join($1, $3)); }
   | '<' parts '>'                              { $$ = value_of_parts(language, $2, span_join($1, $3)); }
   | '<' parts ',' '>'                          { $$ = value_of_parts(language, $2, span_join($1, $4)); }
   | expression '+' expression                  { $$ = value_binary(language, '+', $1, $3); }
   | expression '-' expression                  { $$ = value_binary(language, '-', $1, $3); }
   | expression '*' expression                  { $$ = value_binary(language, '*', $1, $3); }
   | expression '/' expression                  { $$ = value_binary(language, '/', $1, $3); }
-  | '-' expression %prec SIGN                  { $$ = value_negative(language, $2, span_join($1, $2->place)); }
-  | '+' expression %prec SIGN                  { $$ = value_positive(language, $2, span_join($1, $2->place)); }
-  | '!' expression                             { $$ = value_not(language, $2, span_join($1, $2->place)); }
+  | '-' expression %prec SIGN                  { $$ = value_unary(language, '-', $2, span_join($1, $2->place)); }
+  | '+' expression %prec SIGN                  { $$ = value_unary(language, '+', $2, span_join($1, $2->place)); }
+  | '!' expression                             { $$ = value_unary(language, '!', $2, span_join($1, $2->place)); }
   | expression '.' component                   { $$ = value_component(language, $1, $3); }
   ;
 component: X | Y | Z | COMPONENT | part;
@@ -255,6 +251,7 @@ parts: expression %prec ITEM                   { $$ = value_before(NULL, $1); }
   | parts ',' expression %prec ITEM            { $$ = value_before($1, $3); };
 
 name: WORD                                     { $$ = value_named(language, $1); };
+named: name | name indices                     { $$ = value_element(language, $1, $2, $1->place); };
 list: expression                               { $$ = value_before(NULL, $1); }
   | list ',' expression                        { $$ = value_before($1, $3); };
 comma: %empty %prec ITEM | ',';
@@ -262,12 +259,12 @@ comma: %empty %prec ITEM | ',';
 /* In parentheses only. */
 condition:
     expression
-  | condition '<' condition                    { $$ = value_compared(language, '<', $1, $3); }
-  | condition '>' condition                    { $$ = value_compared(language, '>', $1, $3); }
-  | condition '=' condition                    { $$ = value_compared(language, '=', $1, $3); }
-  | condition COMPARISON condition             { $$ = value_compared(language, comparison_at(language, $2), $1, $3); }
-  | condition '&' condition                    { $$ = value_compared(language, '&', $1, $3); }
-  | condition '|' condition                    { $$ = value_compared(language, '|', $1, $3); }
+  | condition '<' condition                    { $$ = value_binary(language, '<', $1, $3); }
+  | condition '>' condition                    { $$ = value_binary(language, '>', $1, $3); }
+  | condition '=' condition                    { $$ = value_binary(language, '=', $1, $3); }
+  | condition COMPARISON condition             { $$ = value_binary(language, comparison_at(language, $2), $1, $3); }
+  | condition '&' condition                    { $$ = value_binary(language, '&', $1, $3); }
+  | condition '|' condition                    { $$ = value_binary(language, '|', $1, $3); }
   | condition '?' { choice_begin(language, $1); } condition ':' { choice_else(language, $1); } condition
                                                { $$ = choice_end(language, $1, $4, $7); }
   ;
@@ -294,7 +291,6 @@ global_item:
   | AMBIENT_LIGHT shade                        { global_ambient(language, $2); }
   | solver                                     { global_solver(language); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 camera_items: %empty | camera_items camera_item;
@@ -303,7 +299,6 @@ camera_item:
   | ANGLE value                                { camera_angle(language, $2); }
   | transform                                  { camera_transform(language, $1); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 camera_vector:
@@ -322,14 +317,12 @@ light_item:
   | SHADOWLESS                                 { light_shadowless(language, $1); }
   | transform                                  { light_transform(language, $1); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 background_items: %empty | background_items background_item;
 background_item:
     shade                                      { background_value(language, $1); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 /* ---- objects ---- */
@@ -353,7 +346,6 @@ patch_item:
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 /* The objects, then modifiers. */
@@ -364,20 +356,17 @@ union_item:
   | modifier                                   { union_modified(language); }
   | solver                                     { solver_misplaced(language, $1); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 /* The object, then modifiers. */
 copy: OBJECT '{' { copy_begin(language, $1); } copy_items '}' { copy_end(language); $$ = node_end(language, $5); };
 copy_items: %empty | copy_items copy_item;
 copy_item:
-    name                                       { copy_named(language, value_last(language, $1)); }
-  | name indices { copy_named(language, value_last(language, value_element(language, $1, $2, $1->place))); }
+    named                                      { copy_named(language, value_last(language, $1)); }
   | object                                     { copy_object(language, $1); }
   | modifier                                   { copy_modified(language, $1); }
   | solver                                     { solver_misplaced(language, $1); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 modifier:
@@ -400,7 +389,7 @@ transform_items: %empty | transform_items transform_item;
 transform_item:
     name        { transforms_add(language, transform_named(language, value_last(language, $1))); }
   | transform                                  { transforms_add(language, $1); }
-  | error                                      { RECOVER(); }
+  | wrong
   ;
 
 /* ---- textures ---- */
@@ -412,13 +401,11 @@ texture_block: TEXTURE '{' { texture_begin(language, $1, TEXTURE_ALL); } texture
     { $$ = texture_end(language, $5); };
 texture_items: %empty | texture_items texture_item;
 texture_item:
-    name                                       { texture_named(language, value_last(language, $1)); }
-  | name indices { texture_named(language, value_last(language, value_element(language, $1, $2, $1->place))); }
+    named                                      { texture_named(language, value_last(language, $1)); }
   | pigment_block                              { texture_merge(language, $1); }
   | finish_block                               { texture_merge(language, $1); }
   | transform                                  { texture_moved(language); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 pigment_block: PIGMENT '{' { texture_begin(language, $1, TEXTURE_PIGMENT); } pigment_items '}'
@@ -428,15 +415,13 @@ pigment_item:
     shade                                      { pigment_value(language, $1); }
   | transform                                  { texture_moved(language); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 finish_block: FINISH '{' { texture_begin(language, $1, TEXTURE_FINISH); } finish_items '}'
     { $$ = texture_end(language, $5); };
 finish_items: %empty | finish_items finish_item;
 finish_item:
-    name                                       { texture_named(language, value_last(language, $1)); }
-  | name indices { texture_named(language, value_last(language, value_element(language, $1, $2, $1->place))); }
+    named                                      { texture_named(language, value_last(language, $1)); }
   | AMBIENT shade                              { finish_ambient(language, $2); }
   | DIFFUSE value                              { finish_number(language, PART_DIFFUSE, $2); }
   | BRILLIANCE value                           { finish_number(language, PART_BRILLIANCE, $2); }
@@ -445,7 +430,6 @@ finish_item:
   | SPECULAR value                             { finish_number(language, PART_SPECULAR, $2); }
   | ROUGHNESS value                            { finish_number(language, PART_ROUGHNESS, $2); }
   | foreign
-  | error                                      { RECOVER(); }
   ;
 
 /* ---- solvers: all words are plain here ---- */
@@ -456,18 +440,18 @@ solver_items: %empty | solver_items solver_item;
 solver_item:
     WORD quantity                              { solver_quantity(language, $1, value_last(language, $2)); }
   | WORD WORD                                  { solver_word(language, $1, $2); }
-  | error                                      { RECOVER(); }
+  | wrong
   ;
 
 /* A name may be a keyword of the item. So a declared name that is part of an expression must be in parentheses. */
 quantity:
     NUMBER                                     { $$ = value_of_number(language, *language->number, $1); }
-  | '(' expression ')'                         { $$ = value_alone(language, $2, span_join($1, $3)); }
+  | '(' expression ')'                         { $$ = value_unary(language, '(', $2, span_join($1, $3)); }
   | quantity '+' quantity                      { $$ = value_binary(language, '+', $1, $3); }
   | quantity '-' quantity                      { $$ = value_binary(language, '-', $1, $3); }
   | quantity '*' quantity                      { $$ = value_binary(language, '*', $1, $3); }
   | quantity '/' quantity                      { $$ = value_binary(language, '/', $1, $3); }
-  | '-' quantity %prec SIGN                    { $$ = value_negative(language, $2, span_join($1, $2->place)); }
+  | '-' quantity %prec SIGN                    { $$ = value_unary(language, '-', $2, span_join($1, $2->place)); }
   | '+' quantity %prec SIGN                    { $$ = value_placed($2, span_join($1, $2->place)); }
   ;
 

@@ -1,5 +1,5 @@
 /* Arrays. */
-#include "language/arrays.h"
+#include "language/values.h"
 
 #include <math.h>
 #include <string.h>

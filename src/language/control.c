@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "language/arrays.h"
 #include "language/directives.h"
 #include "language/tokens.h"
+#include "language/values.h"
 
 static struct frame *frame_of(const struct language *language) { return language->sources->frame; }
 
@@ -87,20 +87,12 @@ void control_leave(struct language *language)
 
 /* ---- conditions ---- */
 
-/* Takes up to `most` numbers from a list. Returns how many values are in it, or -1 after an error. */
-static int take_numbers(struct language *language, const struct value *list, int most, double out[])
-{
-  int count = 0;
-  for (const struct value *v = list; v; v = v->next, count++)
-    if (count < most && !value_to_number(language, v, &out[count])) return -1;
-  return count;
-}
-
 /* Parses what stands in parentheses behind a directive: up to `most` numbers. False after an error. */
 static bool read_numbers(struct language *language, int start, int most, double out[])
 {
   struct value *list = NULL;
-  const bool read = tokens_parse(language, start, &list) && take_numbers(language, list, most, out) >= 0;
+  bool read = tokens_parse(language, start, &list);
+  if (read) value_numbers(language, list, most, out, &read);
   value_last_of_list(language, list);
   return read;
 }
@@ -252,8 +244,7 @@ static void begin_for(struct language *language)
   loop->rounds = 1;
   if (read) {
     loop->name = sources_name(language, list->place);
-    const int count = take_numbers(language, list->next, 3, number);
-    read = count >= 0;
+    const int count = value_numbers(language, list->next, 3, number, &read);
     if (read && (count < 2 || count > 3)) {
       language_error(language, list->place, "a #for takes two or three numbers, but this has %d", count);
       read = false;

@@ -1,8 +1,8 @@
 /* #declare and #local. */
 #include "language/declare.h"
 
-#include "language/arrays.h"
 #include "language/tokens.h"
+#include "language/values.h"
 
 /* The file ends, and POV-Ray loses such a name, or crashes. */
 void declare_left_open(struct language *language, struct span end)

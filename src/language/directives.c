@@ -9,8 +9,8 @@
 #include "language/includes.h"
 #include "language/macros.h"
 #include "language/syntax_errors.h"
-#include "language/strings.h"
 #include "language/tokens.h"
+#include "language/values.h"
 
 /* The last token of the source being read, whatever it is. */
 static struct name here(const struct language *language) { return sources_name(language, sources_here(language)); }
@@ -44,6 +44,61 @@ bool directives_name(struct language *language, const char *directive, struct na
                   out->text);
   else language_tell(language, out->place, "%s needs a name", directive);
   return false;
+}
+
+/* ---- messages ---- */
+
+/* The lines that a stranger's #debug may print; a loop could fill a disk with them. */
+enum { UNTRUSTED_LINES = 1000 };
+
+/* The begun line of #debug. */
+struct messages {
+  char text[1000];
+  size_t used, lines;
+};
+
+static void print_line(struct language *language)
+{
+  struct messages *messages = language->messages;
+  if (!language->untrusted || messages->lines++ < UNTRUSTED_LINES)
+    diagnostics_print(language->diagnostics, messages->text, messages->used);
+  messages->used = 0;
+}
+
+static void debug(struct language *language, const struct value *value)
+{
+  if (!language->messages) language->messages = language_alloc(language, sizeof *language->messages);
+  struct messages *messages = language->messages;
+  if (language->ended_early) return; /* it may be the spare block */
+  for (size_t k = 0; k < value->length; k++) {
+    if (value->text[k] != '\n') messages->text[messages->used++] = value->text[k];
+    if (value->text[k] == '\n' || messages->used == sizeof messages->text) print_line(language);
+  }
+}
+
+void messages_end(struct language *language)
+{
+  if (language->messages && language->messages->used > 0) print_line(language);
+}
+
+void message_pass(struct language *language, int directive)
+{
+  const struct span place = sources_here(language);
+  struct value *value = NULL;
+  const bool whole = tokens_parse(language, PSCN_TOKEN_START_STRING, &value);
+  if (whole && value->kind != VALUE_STRING) {
+    symbol_mistaken(language, value, "a string");
+  } else if (whole) {
+    const int length = (int)value->length;
+    if (directive == TOKEN_DEBUG) debug(language, value);
+    else if (directive == TOKEN_WARNING)
+      diagnostics_warning(language->diagnostics, sources_place(language, place), "%.*s", length, value->text);
+    else {
+      language_tell(language, place, "%.*s", length, value->text);
+      language->stopped = true;
+    }
+  }
+  value_last_of_list(language, value);
 }
 
 /* ---- what is not the grammar's ---- */

@@ -17,4 +17,10 @@ bool directives_name(struct language *language, const char *directive, struct na
 /* Reports the comment or the quote that the source does not close. */
 void directives_tell_open(struct language *language, int token);
 
+/* At #debug, #warning or #error: reads the string behind it and prints it. */
+void message_pass(struct language *language, int directive);
+
+/* At the end, prints what #debug said without ending its line. */
+void messages_end(struct language *language);
+
 #endif

@@ -1,5 +1,5 @@
 /* Functions of numbers, vectors, strings and arrays. */
-#include "language/functions.h"
+#include "language/values.h"
 
 #include <limits.h>
 #include <math.h>
@@ -11,7 +11,6 @@
 #include "geometry/vector.h"
 #include "language/settings.h"
 #include "language/sources.h"
-#include "language/strings.h"
 
 #define PI 3.14159265358979323846
 
@@ -204,12 +203,29 @@ static double character(struct call *call)
   return string_out(call, &letter, 1);
 }
 
+/* str(x, length, precision): at least `length` characters, filled by zeros if that is negative; a negative precision is
+ * one of 6. Appends to text[0 .. *used-1] as far as `size` allows. */
+static void add_number(double x, double length, double precision, char *text, size_t size, size_t *used)
+{
+  enum { WIDEST = 300, FINEST = 100 };
+  const int digits = precision < 0 ? 6 : precision > FINEST ? FINEST : (int)precision;
+  const int width = length > WIDEST ? WIDEST : length < -WIDEST ? -WIDEST : (int)length;
+  char *to = text + *used;
+  const size_t room = size - *used;
+  const int written = width < 0 ? snprintf(to, room, "%0*.*f", -width, digits, x)
+                                : snprintf(to, room, "%*.*f", width, digits, x);
+  const size_t count = (size_t)written < room ? (size_t)written : room - 1;
+  for (size_t k = 0; k < count; k++) /* the point of another locale */
+    if (to[k] == ',') to[k] = '.';
+  *used += count;
+}
+
 static double number_string(struct call *call)
 {
   char text[1024];
   size_t used = 0;
   const double x = number(call), width = number(call);
-  string_add_number(x, width, number(call), text, sizeof text, &used);
+  add_number(x, width, number(call), text, sizeof text, &used);
   return string_out(call, text, used);
 }
 
@@ -226,7 +242,7 @@ static double vector_string(struct call *call)
   for (int k = 0; call->fits && k < parts; k++) {
     if (k > 0) used += (size_t)snprintf(text + used, 100, "%.*s", (int)between->length, between->text);
     if (used > sizeof text / 2) break;
-    string_add_number(value_x(value, k), width, precision, text, sizeof text - 100, &used);
+    add_number(value_x(value, k), width, precision, text, sizeof text - 100, &used);
   }
   return string_out(call, text, used);
 }

@@ -4,8 +4,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/memory.h"
 #include "base/include_path.h"
+#include "base/memory.h"
 #include "language/sources.h"
 #include "language/symbols.h"
 

@@ -10,10 +10,10 @@
 #include "base/memory.h"
 #include "language/camera.h"
 #include "language/declare.h"
+#include "language/directives.h"
 #include "language/expand.h"
 #include "language/includes.h"
 #include "language/settings.h"
-#include "language/strings.h"
 #include "language/textures.h"
 #include "language/tokens.h"
 

@@ -2,9 +2,9 @@
 #ifndef PSCN_LANGUAGE_SOURCES_H
 #define PSCN_LANGUAGE_SOURCES_H
 
+#include "base/table.h"
 #include "language/scan.h"
 #include "language/state.h"
-#include "base/table.h"
 #include "scene/scene.h"
 
 /* The directives that an #end ends. */

@@ -2,8 +2,8 @@
 #ifndef PSCN_LANGUAGE_SYMBOLS_H
 #define PSCN_LANGUAGE_SYMBOLS_H
 
-#include "language/errors.h"
 #include "base/table.h"
+#include "language/errors.h"
 #include "language/words.h"
 
 enum value_kind {

@@ -102,12 +102,10 @@ static bool is_singular(const double matrix[12])
 const struct transform *transform_matrix(struct language *language, struct span place, struct value *parts)
 {
   struct transform *t = begin_identity(language, place);
-  double number[MATRIX_NUMBERS], unused;
-  int count = parts ? 0 : 3;
-  bool known = true;
+  double number[MATRIX_NUMBERS];
+  bool known;
   struct value *list = value_reversed(parts);
-  for (const struct value *part = list; part; part = part->next, count++)
-    known &= value_to_number(language, part, count < MATRIX_NUMBERS ? &number[count] : &unused);
+  const int count = parts ? value_numbers(language, list, MATRIX_NUMBERS, number, &known) : 3;
   value_last_of_list(language, list);
   if (count != MATRIX_NUMBERS) {
     language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, count);

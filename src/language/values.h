@@ -19,28 +19,18 @@ struct value *value_named(struct language *language, struct span name);
 struct value *value_element(struct language *language, struct value *array, struct value *indices, struct span place);
 /* A vector; `parts`: a list, the last one first, which is used up. */
 struct value *value_of_parts(struct language *language, struct value *parts, struct span place);
-/* The value made one of which any use is accepted. */
-struct value *value_unknown(struct value *value, struct span place);
-/* Whether the value can be computed with. If not, this has been reported. */
-bool value_usable(struct language *language, const struct value *a, const char *wanted);
-/* The part that x, u, red and so on name, from 0 on. */
-int value_part_named(const struct language *language, struct span name);
 /* The same value at another place, no longer marked as a component. */
 struct value *value_placed(struct value *value, struct span place);
+/* An operation by its sign, part by part: arithmetic; comparisons, & and |, where what is nearer to 0 than VALUE_EQUAL
+ * is false; [, ] and ! stand for <=, >= and !=, as comparison_at says. Signs before a value: +, -, !; and ( for a value
+ * in parentheses, which its neighbours do not affect. */
 struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
-/* Comparisons, of numbers or part by part, and & and |, where what is nearer to 0 than VALUE_EQUAL is false. `op`: a sign;
- * or of two signs that at the place: [, ] or ! for <=, >= or !=. */
-int comparison_at(const struct language *language, struct span place);
-struct value *value_compared(struct language *language, int op, struct value *a, struct value *b);
-struct value *value_not(struct language *language, struct value *a, struct span place);
+struct value *value_unary(struct language *language, char op, struct value *a, struct span place);
+char comparison_at(const struct language *language, struct span place);
 /* At the ?, at the : and at the end of a choice: errors in the branch that is not chosen do not count. */
 void choice_begin(struct language *language, const struct value *condition);
 void choice_else(struct language *language, const struct value *condition);
 struct value *choice_end(struct language *language, struct value *condition, struct value *a, struct value *b);
-struct value *value_negative(struct language *language, struct value *a, struct span place);
-struct value *value_positive(struct language *language, struct value *a, struct span place);
-/* A value in parentheses, which its neighbours do not affect. */
-struct value *value_alone(struct language *language, struct value *a, struct span place);
 /* `name`: that of the component. */
 struct value *value_component(struct language *language, struct value *a, struct span name);
 /* A colour: behind `color` a number stands for all its parts; behind rgb and similar words for as many as these name. */
@@ -55,6 +45,9 @@ void value_set_number(struct value *to, double x);
 struct value *value_before(struct value *list, struct value *value);
 struct value *value_reversed(struct value *list);
 void value_last_of_list(struct language *language, struct value *list);
+/* Takes up to `most` numbers from a list. Returns how many values are in it. If some are no numbers, that is reported, and
+ * *out_all is false. */
+int value_numbers(struct language *language, const struct value *list, int most, double out[], bool *out_all);
 /* Gives a name or an element the value. Arrays are copied. */
 void value_set(struct language *language, struct value *to, const struct value *value);
 /* A complete value, about to be used. It can be read until the next one is made. */
@@ -75,5 +68,43 @@ bool value_in_range(struct language *language, const struct value *a, const char
 /* "a whole number from 1 to 9", "a number of at least 0", "a number above 0 and up to 1" (low = DBL_MIN). */
 enum { RANGE_TEXT_SIZE = 100 };
 void range_text(double low, double high, bool whole, char out[RANGE_TEXT_SIZE]);
+
+/* ---- strings ---- */
+
+/* The string in quotes at `place`, its escapes resolved. */
+struct value *value_of_string(struct language *language, struct span place);
+
+/* A string of that many bytes, which are to be written to; NULL, after an error, if that is too long. */
+char *string_make(struct language *language, struct value *value, size_t length);
+
+/* ---- arrays ---- */
+
+/* An array whose elements have no values yet. `sizes`: a list, one a dimension, which is used up. Elements may be given
+ * until the end, in rows for arrays of several dimensions. */
+void array_begin(struct language *language, struct value *sizes, struct span place);
+void array_row(struct language *language, struct span brace);
+void array_given(struct language *language, const struct value *value);
+void array_row_end(struct language *language, struct span brace);
+struct value *array_end(struct language *language);
+
+struct array *array_copy(struct language *language, const struct array *array);
+
+/* The element of a declared array: `name` is a list of the array's name and then the indices. NULL after an error. */
+struct value *array_element(struct language *language, struct value *array, const struct value *name);
+
+/* ---- functions, with POV-Ray's names and meaning ---- */
+
+/* The value of the function that is named at `place`. `arguments`: a list, the last one first, which is used up.
+ * `whole`: from the name to the closing parenthesis. */
+struct value *value_function(struct language *language, struct value *arguments, struct span place, struct span whole);
+
+/* Whether the function that is named at `place` draws a random number or makes a generator of them. */
+bool function_draws(const struct language *language, struct span place);
+
+/* Whether the name in defined(NAME) is declared, as a number. */
+struct value *value_defined(struct language *language, struct span name, struct span whole);
+
+/* A word that stands for a number: pi, true, clock and so on. */
+struct value *value_constant(struct language *language, struct span word);
 
 #endif
