@@ -20,11 +20,10 @@
 %code {
 #include "base/memory.h"
 #include "language/camera.h"
-#include "language/declare.h"
+#include "language/symbols.h"
 #include "language/objects.h"
 #include "language/settings.h"
-#include "language/solver_statement.h"
-#include "language/syntax_errors.h"
+#include "language/errors.h"
 #include "language/tokens.h"
 
 #define YYSTACK_USE_ALLOCA 0

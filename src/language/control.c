@@ -1,10 +1,9 @@
 /* Conditions, loops and #switch. */
-#include "language/control.h"
+#include "language/directives.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "language/directives.h"
 #include "language/tokens.h"
 #include "language/values.h"
 

@@ -4,11 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "language/control.h"
-#include "language/declare.h"
-#include "language/includes.h"
-#include "language/macros.h"
-#include "language/syntax_errors.h"
+#include "language/errors.h"
+#include "language/sources.h"
+#include "language/symbols.h"
 #include "language/tokens.h"
 #include "language/values.h"
 
@@ -110,10 +108,10 @@ static void begin_include(struct language *language)
   if (!tokens_parse(language, PSCN_TOKEN_START_STRING, &value)) return;
   struct name name = sources_name(language, value->place);
   if (value->kind != VALUE_STRING) symbol_mistaken(language, value, "the name of a file");
-  else if (name.text[0] != '"') include_file(language, name.place, value->text, value->length);
+  else if (name.text[0] != '"') sources_include(language, name.place, value->text, value->length);
   else if (memchr(name.text, '\n', name.length))
     language_tell(language, name.place, "a file name stands on one line: this quote is not closed there");
-  else include_file(language, name.place, name.text + 1, name.length - 2);
+  else sources_include(language, name.place, name.text + 1, name.length - 2);
   value_last_of_list(language, value);
 }
 

@@ -23,4 +23,26 @@ void message_pass(struct language *language, int directive);
 /* At the end, prints what #debug said without ending its line. */
 void messages_end(struct language *language);
 
+/* ---- conditions, loops and #switch; a loop's text is read again from its place in the source ---- */
+
+/* If the scanner's last token is a directive of these, or an #end, handles it. Returns whether it did. */
+bool control_pass(struct language *language, int token);
+
+/* Skips to behind the matching #end; false if there is none. */
+bool control_skip_to_end(struct language *language);
+
+/* At the end of a source, reports what is open in it. */
+void control_end(struct language *language);
+
+/* Goes back to the includer or to the call. */
+void control_leave(struct language *language);
+
+/* ---- macros ---- */
+
+/* At #macro: declares a macro, and passes over its text. */
+void macro_declare(struct language *language);
+
+/* If the word just read names a macro, reads its arguments and begins to read its text. Returns whether it did. */
+bool macro_called(struct language *language);
+
 #endif

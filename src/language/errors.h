@@ -29,4 +29,10 @@ void language_error_in(struct language *language, const struct block *block, str
 /* Reports a stated limit: reading ends at the next token, with STATUS_LIMIT. */
 void language_limit(struct language *language, struct span place, const char *text);
 
+/* Reports the last token, which is none of `count` expected ones. `is_word`: nor is it a word of the language. */
+void syntax_error(struct language *language, bool is_word, const char *const expected[], int count);
+
+/* Reports the character at which the scanner stopped. */
+void character_error(struct language *language);
+
 #endif

@@ -1,5 +1,5 @@
 /* The list of patches. */
-#include "language/expand.h"
+#include "language/objects.h"
 
 #include <math.h>
 #include <string.h>

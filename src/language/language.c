@@ -1,6 +1,7 @@
 /* Reads a file or text through the grammar into a scene. */
 #include "language/language.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,11 +10,12 @@
 #include "base/input.h"
 #include "base/memory.h"
 #include "language/camera.h"
-#include "language/declare.h"
 #include "language/directives.h"
-#include "language/expand.h"
-#include "language/includes.h"
+#include "language/objects.h"
 #include "language/settings.h"
+#include "language/sources.h"
+#include "language/state.h"
+#include "language/symbols.h"
 #include "language/textures.h"
 #include "language/tokens.h"
 
@@ -103,7 +105,7 @@ static enum status parse(struct reading *r, struct source *source)
 {
   const size_t before = r->language.diagnostics->error_count;
   if (setjmp(r->sources.broken) != 0) return STATUS_LIMIT;
-  if (!source || !include_open(&r->language, source)) return STATUS_LIMIT;
+  if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
   r->tokens.start[0] = r->tokens.solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
   r->tokens.start[1] = r->tokens.solver_only ? PSCN_TOKEN_SOLVER : 0;
   const int result = pscn_parse(&r->language);
@@ -260,4 +262,35 @@ enum status language_parse_solver(const char *text, struct diagnostics *diagnost
   if (status == STATUS_INPUT) status = STATUS_USAGE;
   finish(&r, status);
   return status;
+}
+
+/* ---- memory ---- */
+
+bool language_afford(struct language *language, size_t bytes)
+{
+  language->unaffordable |= bytes > language->max_memory - language->memory_bytes;
+  if (!language->unaffordable) language->memory_bytes += bytes;
+  return !language->unaffordable;
+}
+
+/* If memory is short, a spare block stands in, and reading ends at the next token. The few blocks needed until then do
+ * not overlap. */
+void *language_alloc(struct language *language, size_t size)
+{
+  void *memory = language_afford(language, size) ? arena_alloc(language->arena, 1, size) : NULL;
+  if (memory) return memory;
+  language->ended_early = true;
+  const size_t alignment = _Alignof(max_align_t), room = (size + alignment - 1) / alignment * alignment;
+  assert(room <= sizeof language->spare);
+  if (room > sizeof language->spare - language->spare_used) language->spare_used = 0;
+  memory = language->spare + language->spare_used;
+  language->spare_used += room;
+  return memset(memory, 0, size);
+}
+
+const char *language_keep(struct language *language, const char *text, size_t length)
+{
+  char *kept = language_afford(language, length) ? arena_alloc(language->arena, length, 1) : NULL;
+  language->ended_early |= !kept;
+  return kept ? memcpy(kept, text, length) : NULL;
 }

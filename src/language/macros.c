@@ -1,14 +1,22 @@
 /* Macros, whose text is read again at each call. */
-#include "language/macros.h"
-
-#include "language/control.h"
 #include "language/directives.h"
+
 #include "language/tokens.h"
 #include "language/values.h"
 
 enum {
   MAX_CALLS = 200, /* calls and includes within each other; POV-Ray's limit is 100 */
   CALL_WORK = 16   /* as many tokens take the time of a call */
+};
+
+struct macro {
+  struct passage text;
+  size_t parameter_count;
+  struct parameter {
+    struct parameter *next;
+    const char *name;
+    size_t length;
+  } * parameters;
 };
 
 /* Reads "(A, B)"; as in POV-Ray the commas may be left out. False after an error. */

@@ -4,9 +4,11 @@
 
 #include <stdint.h>
 
+#include "language/language.h"
 #include "language/textures.h"
 #include "language/transforms.h"
 #include "scene/method.h"
+#include "scene/scene.h"
 
 /* The settings of a patch, by number. */
 enum { PATCH_TYPE, PATCH_FLATNESS, PATCH_U_STEPS, PATCH_V_STEPS, PATCH_SETTINGS };
@@ -82,5 +84,11 @@ struct value *value_of_object(struct language *language, struct node *object);
 /* A shape, which is not supported: an object without patches. Passes its block. */
 struct node *shape_pass(struct language *language, struct span place);
 void scene_add(struct language *language, struct node *object);
+
+/* Puts all patches of language->objects, with their textures and solvers, into the scene. `method` becomes the scene's
+ * first. `parts`, if not NULL, becomes the list of the outermost objects. STATUS_INPUT after reporting that a point is
+ * too large; STATUS_LIMIT. */
+enum status objects_expand(struct language *language, const struct method *method, struct scene *scene,
+                           struct language_parts *parts) STATUS_MUST_CHECK;
 
 #endif

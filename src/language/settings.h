@@ -3,6 +3,7 @@
 #define PSCN_LANGUAGE_SETTINGS_H
 
 #include "language/transforms.h"
+#include "language/values.h"
 #include "scene/method.h"
 #include "scene/scene.h"
 
@@ -44,5 +45,16 @@ void light_value(struct language *language, const struct value *value);
 void light_shadowless(struct language *language, struct span place);
 void light_transform(struct language *language, const struct transform *transform);
 void light_end(struct language *language);
+
+/* ---- the solver statement ---- */
+
+/* Actions of the grammar: the name, which sets the method's defaults, then each item. `place`: that of the word. */
+void solver_begin(struct language *language, struct span name);
+void solver_misplaced(struct language *language, struct span place);
+/* The item that the word names, in capitals or not; NULL if there is none. */
+const struct method_item *solver_item_find(const struct name *word);
+void solver_quantity(struct language *language, struct span item, const struct value *value);
+/* A keyword of the item, or else the name of a number. */
+void solver_word(struct language *language, struct span item, struct span value);
 
 #endif

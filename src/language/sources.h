@@ -57,21 +57,14 @@ struct sources {
   const char *const *folders; /* where to look besides the includer's folder, or NULL */
 };
 
-/* Begins to read a source. Takes it over, even on failure. False if memory is short. */
+/* Begins to read a source, which it takes over, even on failure. False if memory is short. */
 bool sources_open(struct language *language, struct source *source);
+
+/* Begins to read the file that an #include names at `place`, or reports an error. */
+void sources_include(struct language *language, struct span place, const char *name, size_t length);
 
 /* Writes the names of the files that were read to the scene; false if memory is short. */
 bool sources_list(const struct language *language, struct scene *scene);
-
-/* The source of the scene; and the first of that file, or NULL. */
-const struct source *sources_scene(const struct sources *sources);
-const struct source *sources_of_file(const struct sources *sources, uint64_t device, uint64_t inode);
-
-/* Whether the text being read stays in memory: that of a macro, which may declare names again and again. */
-static inline bool sources_stays(const struct language *language)
-{
-  return language->sources->frame && language->sources->frame->macro;
-}
 
 /* The text read so far is needed only for errors now: gives back the memory of a long one. */
 void sources_pass(struct language *language);

@@ -3,7 +3,7 @@
 
 #include <assert.h>
 
-#include "language/declare.h"
+#include "language/symbols.h"
 
 static_assert(sizeof(struct scene_texture) == PARTS * sizeof(double), "a texture is PARTS doubles");
 
