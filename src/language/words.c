@@ -1,7 +1,6 @@
 /* The words of the language, and POV-Ray's other words. */
 #include "language/words.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,14 +12,8 @@ struct keyword {
   const char *instead; /* of one that is not supported: what can be used, or "" */
 };
 
-/* Words that begin with one letter. */
-struct initial {
-  uint16_t begin;   /* in WORDS; they end where those of the next letter begin */
-  uint32_t lengths; /* bit n: some words have n letters; none has more than 31 */
-};
-
 /* Made by CMake. WORDS, sorted: the tokens of the grammar that are words, other spellings of them, and the other words
- * that POV-Ray 3.7 reserves (grammar/povray.txt). INITIALS: the letters, and an end. */
+ * that POV-Ray 3.7 reserves (grammar/povray.txt). */
 #include "language/word_tables.h"
 
 static const struct directive {
@@ -81,21 +74,10 @@ const void *words_find(const char *word, size_t length, const void *table, size_
   return bsearch(&(struct sought){word, length}, table, count, size, compare_row);
 }
 
-/* Initial and length distinguish most names from the words. */
 static const struct keyword *find_word(const char *word, size_t length)
 {
   if (word[0] < 'a') return NULL; /* no word of the language begins with a capital */
-  const struct initial *initial = &INITIALS[word[0] - 'a'];
-  if (length > 31 || (initial->lengths >> length & 1) == 0) return NULL;
-  size_t begin = initial[0].begin, end = initial[1].begin;
-  while (begin < end) {
-    const size_t middle = (begin + end) / 2;
-    const int order = words_compare(word, length, WORDS[middle].name);
-    if (order == 0) return &WORDS[middle];
-    if (order < 0) end = middle;
-    else begin = middle + 1;
-  }
-  return NULL;
+  return words_find(word, length, WORDS, COUNT(WORDS), sizeof *WORDS);
 }
 
 int words_token(const char *word, size_t length)
