@@ -15,7 +15,6 @@
 
 enum {
   EXACT_DIGITS = 19,      /* an integer of this many decimal digits fits in 64 bits */
-  WHOLE_DIGITS = 15,      /* and one of this many is a double */
   EXACT_POWER = 22,       /* 10^22 is the largest power of ten that is a double */
   DECISIVE_DIGITS = 770,  /* a tie between doubles has at most 768 digits; further ones only break ties */
   EXPONENT_LIMIT = 100000 /* beyond it only the sign of the exponent matters, whatever the digits */
@@ -115,32 +114,11 @@ static double convert_slowly(const char *text, struct decimal decimal)
   return strtod(digits, NULL);
 }
 
-/* Reads a whole number of few digits at text[i], without point or exponent; most are. Returns where it ends, or i. */
-static size_t read_whole(const char *text, size_t length, size_t i, double *out_value)
-{
-  uint64_t value = 0;
-  size_t end = i;
-  for (; end < length && is_digit(text[end]); end++) {
-    if (end - i == WHOLE_DIGITS) return i;
-    value = 10 * value + (uint64_t)(text[end] - '0');
-  }
-  if (end < length && (text[end] == '.' || text[end] == 'e' || text[end] == 'E')) return i;
-  *out_value = (double)(int64_t)value;
-  return end;
-}
-
 enum number_kind number_read(const char *text, size_t length, double *out_value, size_t *out_used)
 {
   size_t i = 0;
   bool negative = false;
-  double whole;
   if (i < length && (text[i] == '+' || text[i] == '-')) negative = text[i++] == '-';
-  const size_t end = read_whole(text, length, i, &whole);
-  if (end > i) {
-    *out_value = negative ? -whole : whole;
-    *out_used = end;
-    return NUMBER_FINITE;
-  }
   struct decimal decimal = {.digits_begin = i};
   i = read_digits(text, length, &decimal);
   if (i == 0) return NUMBER_NONE;
@@ -217,42 +195,32 @@ static void round_to_digits(double value, int count, char *out_digits, int *out_
   *out_exponent = atoi(from + 1);
 }
 
-static size_t write_special(double value, char *out)
-{
-  const char *text = isnan(value) ? "nan" : isinf(value) ? (value < 0 ? "-inf" : "inf") : signbit(value) ? "-0" : "0";
-  size_t length = strlen(text);
-  memcpy(out, text, length + 1);
-  return length;
-}
-
 enum { SURE_DIGITS = 15, MAX_DIGITS = 17 }; /* 15 digits survive in a double, 17 tell any two doubles apart */
+
+/* Writes `count` significant digits, without trailing zeros. Returns the length. */
+static size_t write_rounded(double value, int count, char *out)
+{
+  char digits[MAX_DIGITS];
+  int exponent = 0;
+  if (!isfinite(value) || value == 0) {
+    strcpy(out, isnan(value) ? "nan" : isinf(value) ? (value < 0 ? "-inf" : "inf") : signbit(value) ? "-0" : "0");
+    return strlen(out);
+  }
+  round_to_digits(value, count, digits, &exponent);
+  while (count > 1 && digits[count - 1] == '0') count--;
+  return lay_out(value < 0, digits, count, exponent, out);
+}
 
 size_t number_write(double value, char *out)
 {
-  if (!isfinite(value) || value == 0) return write_special(value, out);
-  char digits[MAX_DIGITS];
-  int exponent = 0, count;
-  size_t length = 0;
-  /* subnormals hold fewer digits */
-  for (count = fabs(value) < DBL_MIN ? 1 : SURE_DIGITS; count <= MAX_DIGITS; count++) {
-    round_to_digits(value, count, digits, &exponent);
-    int kept = count;
-    while (kept > 1 && digits[kept - 1] == '0') kept--;
-    length = lay_out(value < 0, digits, kept, exponent, out);
-    double back;
-    size_t used;
-    if (number_read(out, length, &back, &used) == NUMBER_FINITE && back == value) break;
+  const int first = fabs(value) < DBL_MIN ? 1 : SURE_DIGITS; /* subnormals hold fewer digits */
+  size_t length = 0, used;
+  double back = (double)NAN;
+  for (int count = first; count <= MAX_DIGITS && back != value; count++) {
+    length = write_rounded(value, count, out);
+    (void)number_read(out, length, &back, &used);
   }
   return length;
 }
 
-size_t number_write_17(double value, char *out)
-{
-  if (!isfinite(value) || value == 0) return write_special(value, out);
-  char digits[MAX_DIGITS];
-  int exponent;
-  round_to_digits(value, MAX_DIGITS, digits, &exponent);
-  int kept = MAX_DIGITS;
-  while (kept > 1 && digits[kept - 1] == '0') kept--;
-  return lay_out(value < 0, digits, kept, exponent, out);
-}
+size_t number_write_17(double value, char *out) { return write_rounded(value, MAX_DIGITS, out); }

@@ -105,7 +105,7 @@ static bool is_declared(struct language *language, const char *directive)
   if (opened) {
     token = directives_scan(language);
     struct name name = sources_name(language, sources_here(language));
-    if (scan_is_word(token)) {
+    if (words_is(token)) {
       bool declared = symbol_known(language, &name);
       const struct value *value = declared ? symbol_find(language, name.text, name.length) : NULL;
       struct value *list = NULL;
@@ -121,7 +121,7 @@ static bool is_declared(struct language *language, const char *directive)
     }
   }
   language_tell(language, sources_here(language), "%s needs a name in parentheses", directive);
-  while (opened && (token == '.' || scan_is_word(token))) token = directives_scan(language);
+  while (opened && (token == '.' || words_is(token))) token = directives_scan(language);
   return true;
 }
 

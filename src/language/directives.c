@@ -37,7 +37,7 @@ bool directives_name(struct language *language, const char *directive, struct na
   const int token = directives_scan(language);
   *out = here(language);
   if (token == PSCN_TOKEN_WORD) return true;
-  if (scan_is_word(token))
+  if (words_is(token))
     language_tell(language, out->place, "%s needs a name, but '%.*s' is a reserved word", directive, (int)out->length,
                   out->text);
   else language_tell(language, out->place, "%s needs a name", directive);

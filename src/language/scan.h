@@ -14,7 +14,7 @@ enum {
   TOKEN_OPEN_COMMENT,
   TOKEN_OPEN_STRING,
   TOKEN_BAD_CHARACTER,
-  TOKEN_BAD_NUMBER, /* one with a second point, or an exponent without digits; scan->number[0] is 1 */
+  TOKEN_BAD_NUMBER, /* one with a second point, or an exponent without digits */
   TOKEN_FIRST_DIRECTIVE,
   TOKEN_INCLUDE,
   TOKEN_IFDEF,
@@ -64,15 +64,5 @@ int pscn_scan_next(struct scan *scan);
 /* Goes on with the token that begins at that byte, outside of comments. */
 void pscn_scan_seek(struct scan *scan, size_t at);
 void pscn_scan_close(struct scan *scan);
-
-/* Sets the value of a number of one digit, as many are. */
-void scan_digit(struct scan *scan, char digit);
-
-/* Reads `count` numbers from the last token's text into scan->number, and notes the bytes of the first that is too
- * large. */
-void scan_numbers(struct scan *scan, const char *text, size_t length, int count);
-
-/* Whether a token is a word: a name, or a word of the language or of POV-Ray's; no directive. */
-bool scan_is_word(int token);
 
 #endif

@@ -34,7 +34,7 @@ static int solver_token(struct tokens *tokens, int token)
     if (tokens->parentheses > 0) return token;
     break;
   }
-  return scan_is_word(token) ? PSCN_TOKEN_WORD : token;
+  return words_is(token) ? PSCN_TOKEN_WORD : token;
 }
 
 /* The next token that is not skipped; 0 also where reading must end early. Most are the grammar's. */
@@ -69,6 +69,7 @@ static int stand_in(struct language *language, int token)
   if (!tokens->skipping) /* POV-Ray takes the e for part of the number */
     language_error(language, tokens->last.place,
                    "this is not a number: it has a second point, or no digits after the e");
+  language->sources->frame->scan.number[0] = 1;
   return PSCN_TOKEN_NUMBER;
 }
 

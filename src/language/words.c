@@ -123,6 +123,13 @@ bool words_begin_statement(int token)
   return is_one_of(token, statements, COUNT(statements));
 }
 
+bool words_is(int token)
+{
+  return token > 255 && token < TOKEN_FIRST_PRIVATE && token != PSCN_TOKEN_NUMBER && token != PSCN_TOKEN_POINT &&
+         token != PSCN_TOKEN_STRING && token != PSCN_TOKEN_VERSION && token != PSCN_TOKEN_DECLARE &&
+         token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_DEFAULT && token != PSCN_TOKEN_COMPARISON;
+}
+
 bool words_are_foreign(int token)
 {
   return token == PSCN_TOKEN_FOREIGN || token == PSCN_TOKEN_SHAPE || token == PSCN_TOKEN_REFUSED ||

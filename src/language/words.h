@@ -21,6 +21,8 @@ const char *words_directive(const char *text, size_t *length);
 /* Whether a token begins a statement; or an item of a block, not a value. */
 bool words_begin_statement(int token);
 bool words_begin_item(int token);
+/* Whether a token is a word: a name, or a word of the language or of POV-Ray's; no directive. */
+bool words_is(int token);
 /* Whether a token is a word of POV-Ray's that is not ours. */
 bool words_are_foreign(int token);
 

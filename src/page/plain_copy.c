@@ -151,7 +151,7 @@ static int drop_solver(struct copy *copy)
 {
   const size_t begin = copy->scan.begin;
   int token = pscn_scan_next(&copy->scan);
-  if (!scan_is_word(token)) return token; /* no solver statement */
+  if (!words_is(token)) return token; /* no solver statement */
   size_t end = copy->scan.end;
   token = pscn_scan_next(&copy->scan);
   if (token == '{') {
@@ -182,7 +182,7 @@ static void copy_text(struct copy *copy)
       if (token == PSCN_TOKEN_STRING) copy_include(copy);
       else note_word(copy, "#include ");
     } else {
-      if ((scan_is_word(token) || token > TOKEN_FIRST_PRIVATE) && uses_files(copy)) note_word(copy, "");
+      if ((words_is(token) || token > TOKEN_FIRST_PRIVATE) && uses_files(copy)) note_word(copy, "");
       token = pscn_scan_next(&copy->scan);
     }
   }
