@@ -18,7 +18,6 @@
 }
 
 %code {
-#include "base/memory.h"
 #include "language/camera.h"
 #include "language/symbols.h"
 #include "language/objects.h"
@@ -27,8 +26,8 @@
 #include "language/tokens.h"
 
 #define YYSTACK_USE_ALLOCA 0
-#define YYMALLOC(size) memory_alloc(1, size)
-#define YYFREE memory_free
+#define YYMALLOC(size) language_alloc(language, size)
+#define YYFREE(block) ((void)(block))
 
 static int pscn_lex(PSCN_STYPE *value, struct language *language)
 {

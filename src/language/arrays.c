@@ -15,13 +15,6 @@ struct open_array {
   struct block block;
 };
 
-static bool array_alloc(struct language *language, struct array *array)
-{
-  if (!language_afford(language, array->count * sizeof *array->elements)) return false;
-  array->elements = arena_alloc(language->arena, array->count, sizeof *array->elements);
-  return array->elements != NULL;
-}
-
 static struct array *empty_array(struct language *language, const struct value *sizes, struct span place)
 {
   struct array *array = language_alloc(language, sizeof *array);
@@ -39,15 +32,9 @@ static struct array *empty_array(struct language *language, const struct value *
     }
     array->size[array->dimensions++] = (int)x;
     array->count *= (size_t)x;
-    if (array->count > MOST_ELEMENTS) {
-      language_limit(language, place, "an array has more than 1,000,000 elements");
-      return NULL;
-    }
+    if (array->count > MOST_ELEMENTS) language_limit(language, place, "an array has more than 1,000,000 elements");
   }
-  if (!array_alloc(language, array)) {
-    language->ended_early = true;
-    return NULL;
-  }
+  array->elements = language_alloc(language, array->count * sizeof *array->elements);
   for (size_t k = 0; k < array->count; k++) array->elements[k].kind = VALUE_NONE;
   return array;
 }
@@ -118,10 +105,7 @@ struct array *array_copy(struct language *language, const struct array *array)
 {
   struct array *copy = language_alloc(language, sizeof *copy);
   *copy = *array;
-  if (!array_alloc(language, copy)) {
-    language->ended_early = true;
-    return copy->count = 0, copy;
-  }
+  copy->elements = language_alloc(language, copy->count * sizeof *copy->elements);
   for (size_t k = 0; k < copy->count; k++) {
     copy->elements[k] = array->elements[k];
     if (copy->elements[k].kind == VALUE_ARRAY) copy->elements[k].array = array_copy(language, copy->elements[k].array);

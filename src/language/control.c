@@ -69,15 +69,6 @@ static void leave(struct language *language)
   sources_close_condition(language);
 }
 
-/* NULL, after an error, if there are too many. */
-static struct condition *open_condition(struct language *language, enum opener opener, struct span place)
-{
-  struct condition *condition = sources_open_condition(language, opener, place);
-  if (!condition && !language->ended_early)
-    language_limit(language, place, "conditions and loops are nested more than 200 deep");
-  return condition;
-}
-
 void control_leave(struct language *language)
 {
   sources_leave(language);
@@ -152,7 +143,8 @@ static void begin_if(struct language *language, int directive)
   if (directive == TOKEN_IF) wanted = holds(language, true);
   else if (directive == TOKEN_IFDEF) wanted = is_declared(language, "#ifdef");
   else wanted = !is_declared(language, "#ifndef");
-  if (open_condition(language, OPEN_IF, place) && !wanted) choose_branch(language);
+  sources_open_condition(language, OPEN_IF, place);
+  if (!wanted) choose_branch(language);
 }
 
 /* At an #else or #elseif behind a branch that has been read. */
@@ -186,8 +178,7 @@ static void begin_switch(struct language *language)
   const struct span place = sources_here(language);
   double x = NAN;
   read_numbers(language, PSCN_TOKEN_START_CONDITION, 1, &x);
-  struct condition *condition = open_condition(language, OPEN_SWITCH, place);
-  if (condition) condition->chosen = x;
+  sources_open_condition(language, OPEN_SWITCH, place)->chosen = x;
 }
 
 /* At a #case or #range: skips to the one that is chosen, if none was so far; NAN then stands for the choice. */
@@ -217,8 +208,7 @@ static void pass_case(struct language *language, int directive)
 static void begin_while(struct language *language)
 {
   const struct span place = sources_here(language);
-  struct condition *loop = open_condition(language, OPEN_WHILE, place);
-  if (!loop) return;
+  struct condition *loop = sources_open_condition(language, OPEN_WHILE, place);
   loop->begin = frame_of(language)->scan.end;
   loop->rounds = 1;
   if (!holds(language, false) && is_open(language, loop)) leave(language);
@@ -235,8 +225,7 @@ static void begin_for(struct language *language)
   const struct span place = sources_here(language);
   double number[3] = {0, 0, 1};
   struct value *list = NULL;
-  struct condition *loop = open_condition(language, OPEN_FOR, place);
-  if (!loop) return;
+  struct condition *loop = sources_open_condition(language, OPEN_FOR, place);
   bool read = tokens_parse(language, PSCN_TOKEN_START_FOR, &list);
   if (!is_open(language, loop)) return;
   loop->begin = frame_of(language)->scan.end;

@@ -29,7 +29,7 @@ int directives_scan(struct language *language)
     snprintf(text, sizeof text, "loops and macros read more than %zu words; this is the last", language->max_work);
     language_limit(language, sources_here(language), text);
   }
-  return language_ended(language) ? 0 : pscn_scan_next(&sources->frame->scan);
+  return pscn_scan_next(&sources->frame->scan);
 }
 
 bool directives_name(struct language *language, const char *directive, struct name *out)
@@ -67,7 +67,6 @@ static void debug(struct language *language, const struct value *value)
 {
   if (!language->messages) language->messages = language_alloc(language, sizeof *language->messages);
   struct messages *messages = language->messages;
-  if (language->ended_early) return; /* it may be the spare block */
   for (size_t k = 0; k < value->length; k++) {
     if (value->text[k] != '\n') messages->text[messages->used++] = value->text[k];
     if (value->text[k] == '\n' || messages->used == sizeof messages->text) print_line(language);
@@ -93,7 +92,7 @@ void message_pass(struct language *language, int directive)
       diagnostics_warning(language->diagnostics, sources_place(language, place), "%.*s", length, value->text);
     else {
       language_tell(language, place, "%.*s", length, value->text);
-      language->stopped = true;
+      language_end(language, STATUS_INPUT);
     }
   }
   value_last_of_list(language, value);
@@ -163,7 +162,7 @@ bool directives_pass(struct language *language, int token)
 {
   if (refused_directive(language, token)) return true;
   switch (token) {
-  case 0: return !language_ended(language) && end_of_source(language);
+  case 0: return end_of_source(language);
   case TOKEN_OPEN_COMMENT:
   case TOKEN_OPEN_STRING: directives_tell_open(language, token); return true;
   case TOKEN_BAD_CHARACTER:

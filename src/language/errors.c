@@ -61,7 +61,7 @@ static size_t leave_out(struct language *language, struct span place, const stru
     left = language_alloc(language, sizeof *left);
     *left = (struct left_out){.before = language->left_out, .place = place};
     snprintf(left->word, sizeof left->word, "%.*s", (int)name->length, name->text);
-    if (!language->ended_early) language->left_out = left;
+    language->left_out = left;
   }
   return left->times++;
 }
@@ -129,11 +129,9 @@ void language_error_in(struct language *language, const struct block *block, str
 
 void language_limit(struct language *language, struct span place, const char *text)
 {
-  if (!language->ended_early) {
-    language_tell(language, place, "%s", text);
-    language->limit_told = true;
-  }
-  language->ended_early = true;
+  language_tell(language, place, "%s", text);
+  language->limit_told = true;
+  language_end(language, STATUS_LIMIT);
 }
 
 /* ---- the text of syntax errors ---- */
@@ -286,7 +284,7 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
   const struct span place = tokens->last.place;
   /* What follows a word just reported as unknown fits the word that was meant. */
   const bool follows = same_place(tokens->previous, language->unknown);
-  if (same_place(place, tokens->told) || follows || language_ended(language)) return;
+  if (same_place(place, tokens->told) || follows) return;
   tokens->told = place;
   const struct name name = sources_name(language, place);
   if (name.length == 0 && tokens->depth > 0) {

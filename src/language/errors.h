@@ -26,8 +26,8 @@ bool language_sound(const struct language *language, const struct block *block);
 /* Reports an error about a block, if the block is sound. */
 void language_error_in(struct language *language, const struct block *block, struct span place, const char *text);
 
-/* Reports a stated limit: reading ends at the next token, with STATUS_LIMIT. */
-void language_limit(struct language *language, struct span place, const char *text);
+/* Reports a stated limit, and ends reading with STATUS_LIMIT. */
+_Noreturn void language_limit(struct language *language, struct span place, const char *text);
 
 /* Reports the last token, which is none of `count` expected ones. `is_word`: nor is it a word of the language. */
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count);

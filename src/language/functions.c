@@ -74,10 +74,9 @@ static double seed(struct call *call)
   struct language *language = call->language;
   struct growing *states = &language->randoms;
   const double x = number(call);
-  const bool allowed = states->count < MOST_GENERATORS && language_afford(language, sizeof(uint32_t));
-  uint32_t *state = allowed ? growing_add(states, 1, sizeof *state) : NULL;
-  language->ended_early |= !state;
-  if (!state) return 0;
+  language_afford(language, sizeof(uint32_t));
+  uint32_t *state = states->count < MOST_GENERATORS ? growing_add(states, 1, sizeof *state) : NULL;
+  if (!state) language_end(language, STATUS_LIMIT);
   *state = x > -2147483649.0 && x < 2147483648.0 ? (uint32_t)(int32_t)x : UINT32_C(0x80000000);
   return (double)(states->count - 1);
 }

@@ -1,7 +1,6 @@
 /* Reads a file or text through the grammar into a scene. */
 #include "language/language.h"
 
-#include <assert.h>
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -41,7 +40,6 @@ static enum status reading_create(struct reading *r, const struct language_setti
                                   struct diagnostics *diagnostics)
 {
   struct language *language = &r->language;
-  const int frames = settings->last_frame - settings->first_frame;
   memset(r, 0, sizeof *r);
   *language = (struct language){.diagnostics = diagnostics,
                                 .arena = arena_create(),
@@ -63,7 +61,28 @@ static enum status reading_create(struct reading *r, const struct language_setti
   settings_default(&r->settings);
   r->sources.folders = settings->folders;
   r->parts = settings->out_parts;
-  if (!language->arena) return STATUS_LIMIT;
+  return language->arena ? STATUS_OK : STATUS_LIMIT;
+}
+
+static void reading_destroy(struct reading *r)
+{
+  sources_close(&r->language);
+  memory_free(r->language.randoms.at);
+  arena_destroy(r->language.arena);
+}
+
+/* Reports the end of the text within a declaration that has errors of its own, which were not reported. */
+static void tell_end(struct language *language)
+{
+  const struct tokens *tokens = language->tokens;
+  if (tokens->depth > 0) language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
+  else language_tell(language, tokens->last.place, "the text ends within a declaration");
+}
+
+/* The names that are declared before a scene is read. */
+static void declare_numbers(struct language *language, const struct language_settings *settings)
+{
+  const int frames = settings->last_frame - settings->first_frame;
   const struct {
     const char *name;
     double value;
@@ -82,38 +101,32 @@ static enum status reading_create(struct reading *r, const struct language_setti
     const struct language_number *number = &settings->numbers[k];
     declare_number(language, number->name, number->name_length, number->value);
   }
-  return language->ended_early ? STATUS_LIMIT : STATUS_OK;
-}
-
-static void reading_destroy(struct reading *r)
-{
-  sources_close(&r->language);
-  memory_free(r->language.randoms.at);
-  arena_destroy(r->language.arena);
-}
-
-/* Reports the end of the text within a declaration that has errors of its own, which were not reported. */
-static void tell_end(struct language *language)
-{
-  const struct tokens *tokens = language->tokens;
-  if (tokens->depth > 0) language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
-  else language_tell(language, tokens->last.place, "the text ends within a declaration");
 }
 
 /* Runs the grammar over a source, which it takes over; NULL if there was no memory for one. */
-static enum status parse(struct reading *r, struct source *source)
+static void read_source(struct reading *r, const struct language_settings *settings, struct source *source)
 {
-  const size_t before = r->language.diagnostics->error_count;
-  if (setjmp(r->sources.broken) != 0) return STATUS_LIMIT;
-  if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
+  struct language *language = &r->language;
+  const size_t before = language->diagnostics->error_count;
+  if (!source) language_end(language, STATUS_LIMIT);
+  sources_open(language, source);
+  declare_numbers(language, settings);
   r->tokens.start[0] = r->tokens.solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
   r->tokens.start[1] = r->tokens.solver_only ? PSCN_TOKEN_SOLVER : 0;
-  const int result = pscn_parse(&r->language);
-  language_tell_left_out(&r->language);
-  messages_end(&r->language);
-  if (result == 1 && r->language.diagnostics->error_count == before && !r->language.ended_early) tell_end(&r->language);
-  if (r->language.ended_early || result == 2) return STATUS_LIMIT;
-  return result != 0 || r->language.diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;
+  const bool whole = pscn_parse(language) == 0;
+  language->status = whole && language->diagnostics->error_count == before ? STATUS_OK : STATUS_INPUT;
+}
+
+static enum status parse(struct reading *r, const struct language_settings *settings, struct source *source)
+{
+  struct language *language = &r->language;
+  const size_t before = language->diagnostics->error_count;
+  language->status = STATUS_LIMIT; /* if the scanner breaks */
+  if (setjmp(language->ended) == 0) read_source(r, settings, source);
+  language_tell_left_out(language);
+  messages_end(language);
+  if (language->status == STATUS_INPUT && language->diagnostics->error_count == before) tell_end(language);
+  return language->status;
 }
 
 static enum status add_lights(const struct settings *settings, struct scene *scene)
@@ -197,7 +210,7 @@ static enum status load(struct source *source, const struct language_settings *s
   struct reading r;
   enum status status = reading_create(&r, settings, diagnostics);
   if (status != STATUS_OK) source_destroy(source);
-  else status = parse(&r, source);
+  else status = parse(&r, settings, source);
   if (status == STATUS_OK) status = make_scene(&r, out_scene);
   finish(&r, status);
   if (status == STATUS_OK) status = override(*out_scene, settings, diagnostics);
@@ -257,7 +270,7 @@ enum status language_parse_solver(const char *text, struct diagnostics *diagnost
   struct reading r;
   enum status status = reading_create(&r, &settings, diagnostics);
   r.tokens.solver_only = true;
-  if (status == STATUS_OK) status = parse(&r, source_from_text("<--solver>", text, strlen(text)));
+  if (status == STATUS_OK) status = parse(&r, &settings, source_from_text("<--solver>", text, strlen(text)));
   if (status == STATUS_OK) *out_method = *r.language.method;
   if (status == STATUS_INPUT) status = STATUS_USAGE;
   finish(&r, status);
@@ -266,31 +279,28 @@ enum status language_parse_solver(const char *text, struct diagnostics *diagnost
 
 /* ---- memory ---- */
 
-bool language_afford(struct language *language, size_t bytes)
+void language_end(struct language *language, enum status status)
 {
-  language->unaffordable |= bytes > language->max_memory - language->memory_bytes;
-  if (!language->unaffordable) language->memory_bytes += bytes;
-  return !language->unaffordable;
+  language->status = status;
+  longjmp(language->ended, 1);
 }
 
-/* If memory is short, a spare block stands in, and reading ends at the next token. The few blocks needed until then do
- * not overlap. */
+void language_afford(struct language *language, size_t bytes)
+{
+  language->unaffordable = bytes > language->max_memory - language->memory_bytes;
+  if (language->unaffordable) language_end(language, STATUS_LIMIT);
+  language->memory_bytes += bytes;
+}
+
 void *language_alloc(struct language *language, size_t size)
 {
-  void *memory = language_afford(language, size) ? arena_alloc(language->arena, 1, size) : NULL;
-  if (memory) return memory;
-  language->ended_early = true;
-  const size_t alignment = _Alignof(max_align_t), room = (size + alignment - 1) / alignment * alignment;
-  assert(room <= sizeof language->spare);
-  if (room > sizeof language->spare - language->spare_used) language->spare_used = 0;
-  memory = language->spare + language->spare_used;
-  language->spare_used += room;
-  return memset(memory, 0, size);
+  language_afford(language, size);
+  void *memory = arena_alloc(language->arena, 1, size);
+  if (!memory) language_end(language, STATUS_LIMIT);
+  return memory;
 }
 
 const char *language_keep(struct language *language, const char *text, size_t length)
 {
-  char *kept = language_afford(language, length) ? arena_alloc(language->arena, length, 1) : NULL;
-  language->ended_early |= !kept;
-  return kept ? memcpy(kept, text, length) : NULL;
+  return memcpy(language_alloc(language, length), text, length);
 }

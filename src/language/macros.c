@@ -32,7 +32,6 @@ static bool read_parameters(struct language *language, struct macro *macro)
     const struct name name = sources_name(language, sources_here(language));
     struct parameter *parameter = *end = language_alloc(language, sizeof *parameter);
     const char *kept = language_keep(language, name.text, name.length);
-    if (!kept) return false;
     *parameter = (struct parameter){.name = kept, .length = name.length};
     end = &parameter->next;
     macro->parameter_count++;
@@ -91,15 +90,13 @@ static void call(struct language *language, const struct macro *macro, const str
   for (struct value *a = arguments; a; a = a->next, count++)
     if (a->depth > language->symbols->depth) a->named = NULL;
   if (fit(language, macro, arguments, count, name)) {
-    if (language->symbols->depth == MAX_CALLS) {
+    if (language->symbols->depth == MAX_CALLS)
       language_limit(language, name->place, "macros are called more than 200 deep");
-      return;
-    }
     language->work += CALL_WORK;
     sources_call(language, &macro->text, name->place);
     symbols_enter(language->symbols);
     const struct value *a = arguments;
-    for (const struct parameter *p = macro->parameters; p && !language->ended_early; p = p->next, a = a->next)
+    for (const struct parameter *p = macro->parameters; p; p = p->next, a = a->next)
       symbol_parameter(language, &(struct name){.text = p->name, .length = p->length, .place = name->place}, a);
   }
   value_last_of_list(language, arguments);

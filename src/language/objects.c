@@ -31,7 +31,7 @@ static struct open_node *open_node(struct language *language, struct span place)
   return objects->open = open;
 }
 
-/* Its memory is reused for the next node, unless it is the spare block. */
+/* Its memory is reused for the next node. */
 struct node *node_end(struct language *language, struct span brace)
 {
   struct objects *objects = language->objects;
@@ -40,7 +40,6 @@ struct node *node_end(struct language *language, struct span brace)
   *node = open->node;
   objects->whole = span_join(node->place, brace);
   objects->open = open->outer;
-  if (language->ended_early) return node;
   open->outer = objects->closed;
   objects->closed = open;
   return node;

@@ -54,9 +54,8 @@ struct scan {
 };
 
 /* Begins to scan text[0 .. length-1], which two NULs must follow. The text must outlive the scanner. pscn_scan_next
- * writes to it, but restores it before it returns. If the scanner breaks, it jumps to *broken, which must be set.
- * Returns false if the text cannot be scanned. */
-bool pscn_scan_open(struct scan *scan, char *text, size_t length, jmp_buf *broken);
+ * writes to it, but restores it before it returns. If the scanner breaks, it jumps to *broken, which must be set. */
+void pscn_scan_open(struct scan *scan, char *text, size_t length, jmp_buf *broken);
 
 /* The next token: a grammar token, 0 at the end, or one of the above. */
 int pscn_scan_next(struct scan *scan);

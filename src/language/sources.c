@@ -49,15 +49,14 @@ static hash_type hash_text(const struct source *source)
 }
 
 /* Remembers a source, so that it is found when included again, and destroyed at the end. */
-static bool remember(struct language *language, struct source *source)
+static void remember(struct language *language, struct source *source)
 {
   struct sources *sources = language->sources;
-  struct source_list *entry = language_alloc(language, sizeof *entry);
-  if (language->ended_early || !language_afford(language, source->shared ? 0 : source->length)) return false;
-  if (!source->shared && source->inode != 0 &&
-      !table_add(&sources->files, language->arena, &entry->entry, (uint64_t[]){source->device, source->inode},
-                 2 * sizeof(uint64_t)))
-    return false;
+  struct source_list *entry = arena_alloc(language->arena, 1, sizeof *entry);
+  if (!entry) {
+    source_destroy(source);
+    language_end(language, STATUS_LIMIT);
+  }
   entry->next = sources->all;
   entry->source = source;
   entry->base = sources->end + 1;
@@ -65,22 +64,24 @@ static bool remember(struct language *language, struct source *source)
   sources->all = entry;
   sources->count++;
   sources->end = entry->base + (uint32_t)source->length;
-  return true;
+  if (source->shared) return;
+  language_afford(language, sizeof *entry + source->length);
+  if (source->inode != 0 && !table_add(&sources->files, language->arena, &entry->entry,
+                                       (uint64_t[]){source->device, source->inode}, 2 * sizeof(uint64_t)))
+    language_end(language, STATUS_LIMIT);
 }
 
-static bool open_frame(struct language *language, const struct frame *frame)
+static void open_frame(struct language *language, const struct frame *frame)
 {
   struct sources *sources = language->sources;
   struct frame *made = sources->unused;
   if (made) sources->unused = made->outer;
   else made = language_alloc(language, sizeof *made);
-  if (language->ended_early) return false;
   *made = *frame;
   made->outer = sources->frame;
-  if (!pscn_scan_open(&made->scan, frame->source->text, frame->source->length, &sources->broken)) return false;
+  pscn_scan_open(&made->scan, frame->source->text, frame->source->length, &language->ended);
   sources->frame = made;
   language->number = made->scan.number;
-  return true;
 }
 
 /* Whether the text is UTF-16: it begins with a byte order mark of that, or with two characters of ASCII. */
@@ -91,29 +92,21 @@ static bool is_wide(const struct source *source)
   return source->length >= 4 && (t[0] == 0) == (t[2] == 0) && (t[1] == 0) == (t[3] == 0) && (t[0] == 0) != (t[1] == 0);
 }
 
-bool sources_open(struct language *language, struct source *source)
+void sources_open(struct language *language, struct source *source)
 {
   const bool wide = is_wide(source);
   if (wide) memset(source->text, 0, source->length), source->length = 0;
-  if (!remember(language, source)) {
-    source_destroy(source);
-    return false;
-  }
+  remember(language, source);
   language->sources->included++;
-  if (!open_frame(language, &(struct frame){.source = source, .base = language->sources->all->base})) return false;
+  open_frame(language, &(struct frame){.source = source, .base = language->sources->all->base});
   if (wide)
     language_tell(language, sources_span(language->sources->frame, 0, 0), "this is UTF-16: save it as UTF-8 or ASCII");
-  return true;
 }
 
 void sources_call(struct language *language, const struct passage *text, struct span called)
 {
   source_recall(text->source);
-  if (!open_frame(language,
-                  &(struct frame){.source = text->source, .base = text->base, .macro = true, .called = called})) {
-    language->ended_early = true;
-    return;
-  }
+  open_frame(language, &(struct frame){.source = text->source, .base = text->base, .macro = true, .called = called});
   language->sources->again++;
   pscn_scan_seek(&language->sources->frame->scan, text->begin);
 }
@@ -123,10 +116,10 @@ struct condition *sources_open_condition(struct language *language, enum opener 
   struct sources *sources = language->sources;
   struct frame *frame = sources->frame;
   struct condition *condition = sources->closed;
-  if (frame->conditions == MAX_CONDITIONS) return NULL;
+  if (frame->conditions == MAX_CONDITIONS)
+    language_limit(language, place, "conditions and loops are nested more than 200 deep");
   if (condition) sources->closed = condition->outer;
   else condition = language_alloc(language, sizeof *condition);
-  if (language->ended_early) return NULL;
   *condition = (struct condition){.outer = frame->condition, .opener = opener, .place = place};
   frame->condition = condition;
   frame->conditions++;
@@ -299,10 +292,7 @@ static struct source *read_included(struct language *language, struct span place
     return NULL;
   }
   const char *path = include_path(language->arena, &folders, name, length, &device, &inode);
-  if (!path) {
-    language->ended_early = true;
-    return NULL;
-  }
+  if (!path) language_end(language, STATUS_LIMIT);
   const struct source *known = of_file(sources, device, inode);
   enum status status = STATUS_OK;
   if (known) source = source_share(known, path);
@@ -319,23 +309,16 @@ static struct source *read_included(struct language *language, struct span place
 void sources_include(struct language *language, struct span place, const char *name, size_t length)
 {
   struct sources *sources = language->sources;
-  if (sources->included > MAX_INCLUDE_DEPTH) {
-    language_limit(language, place, "files are included more than 32 deep");
-    return;
-  }
-  if (sources->count == MAX_SOURCES) {
-    language_limit(language, place, "more than 10000 files are included");
-    return;
-  }
+  if (sources->included > MAX_INCLUDE_DEPTH) language_limit(language, place, "files are included more than 32 deep");
+  if (sources->count == MAX_SOURCES) language_limit(language, place, "more than 10000 files are included");
   struct source *source = read_included(language, place, name, length);
   if (!source) return;
   if (source->length >= UINT32_MAX - sources->end) { /* a minute's reading, and the most that spans can express */
-    language_limit(language, place, "more than 4 GiB of text are included");
     source_destroy(source);
-    return;
+    language_limit(language, place, "more than 4 GiB of text are included");
   }
   source->includer = sources->frame->source;
   source->include_begin = sources->frame->scan.begin;
-  if (!sources_open(language, source)) language->ended_early = true;
-  else symbols_enter(language->symbols);
+  sources_open(language, source);
+  symbols_enter(language->symbols);
 }

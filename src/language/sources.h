@@ -53,12 +53,11 @@ struct sources {
   int count, included;        /* sources; those open */
   size_t again;               /* loops and macros being read */
   uint32_t end;               /* where the spans of all of them end */
-  jmp_buf broken;             /* for the scanners */
   const char *const *folders; /* where to look besides the includer's folder, or NULL */
 };
 
-/* Begins to read a source, which it takes over, even on failure. False if memory is short. */
-bool sources_open(struct language *language, struct source *source);
+/* Begins to read a source, which it takes over. */
+void sources_open(struct language *language, struct source *source);
 
 /* Begins to read the file that an #include names at `place`, or reports an error. */
 void sources_include(struct language *language, struct span place, const char *name, size_t length);
@@ -72,7 +71,7 @@ void sources_pass(struct language *language);
 /* Begins to read the text of a macro, named at `called`. */
 void sources_call(struct language *language, const struct passage *text, struct span called);
 
-/* Opens and closes a condition or a loop in the source being read; NULL if there are too many. */
+/* Opens and closes a condition or a loop in the source being read. */
 struct condition *sources_open_condition(struct language *language, enum opener opener, struct span place);
 void sources_close_condition(struct language *language);
 

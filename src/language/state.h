@@ -4,6 +4,7 @@
 #ifndef PSCN_LANGUAGE_STATE_H
 #define PSCN_LANGUAGE_STATE_H
 
+#include <setjmp.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -61,27 +62,24 @@ struct declaration {
 
 struct language {
   struct diagnostics *diagnostics;
-  struct arena *arena;                    /* for what is needed only while reading */
-  size_t memory_bytes, max_memory;        /* in use while reading; allowed */
-  bool unaffordable;                      /* more was needed */
-  bool untrusted;                         /* settings.untrusted */
-  bool ended_early;                       /* out of memory, or a stated limit: STATUS_LIMIT */
-  bool limit_told;                        /* it was a stated limit, which is reported */
-  struct span unknown;                    /* the last word reported as unknown */
-  struct declaration *declaration;        /* the innermost that is open, or NULL */
-  struct value *layered;                  /* the declared texture that more layers may follow, or NULL */
-  size_t declared;                        /* declarations that have ended */
-  int idle;                               /* choices whose other branch is being read */
-  bool lenient;                           /* settings.lenient */
-  bool stopped;                           /* by #error */
-  double clock;                           /* of the frame */
-  bool animated;                          /* clock_on */
-  size_t work, max_work;                  /* tokens read by loops and macros; allowed */
-  struct value *unused;                   /* values to be reused */
-  const double *number;                   /* of the last token, if that is a number or a vector; until the next one */
-  _Alignas(max_align_t) char spare[4096]; /* stands in when memory is short */
-  size_t spare_used;
-
+  struct arena *arena;             /* for what is needed only while reading */
+  size_t memory_bytes, max_memory; /* in use while reading; allowed */
+  bool unaffordable;               /* more was needed */
+  bool untrusted;                  /* settings.untrusted */
+  bool limit_told;                 /* reading ended at a stated limit, which is reported */
+  enum status status;              /* once it has ended */
+  jmp_buf ended;                   /* where it goes on when it ends early */
+  struct span unknown;             /* the last word reported as unknown */
+  struct declaration *declaration; /* the innermost that is open, or NULL */
+  struct value *layered;           /* the declared texture that more layers may follow, or NULL */
+  size_t declared;                 /* declarations that have ended */
+  int idle;                        /* choices whose other branch is being read */
+  bool lenient;                    /* settings.lenient */
+  double clock;                    /* of the frame */
+  bool animated;                   /* clock_on */
+  size_t work, max_work;           /* tokens read by loops and macros; allowed */
+  struct value *unused;            /* values to be reused */
+  const double *number;            /* of the last token, if that is a number or a vector; until the next one */
   struct symbols *symbols;
   struct sources *sources;
   struct left_out *left_out; /* what was, the last kind first */
@@ -105,19 +103,16 @@ struct language {
   struct settings *settings;
 };
 
-/* Whether nothing more is read. */
-static inline bool language_ended(const struct language *language)
-{
-  return language->ended_early || language->stopped;
-}
+/* Ends reading at once: STATUS_LIMIT if memory is short. What is in use is freed by whoever began to read. */
+_Noreturn void language_end(struct language *language, enum status status);
 
-/* Whether settings.max_memory allows that many more bytes; if so, counts them. */
-bool language_afford(struct language *language, size_t bytes);
+/* Counts that many more bytes; ends reading if settings.max_memory does not allow them. */
+void language_afford(struct language *language, size_t bytes);
 
-/* Zeroed memory, never NULL. If memory is short, reading ends at the next token. */
+/* Zeroed memory, never NULL: if it is short, reading ends. */
 void *language_alloc(struct language *language, size_t size);
 
-/* A copy of text that may be dropped. NULL if memory is short; reading then ends. */
+/* A copy of text that may be dropped. */
 const char *language_keep(struct language *language, const char *text, size_t length);
 
 #endif

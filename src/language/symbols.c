@@ -32,15 +32,13 @@ static struct symbol *add(struct language *language, const struct name *name, in
   const struct frame *frame = language->sources->frame;
   const bool stays = frame && frame->macro; /* a macro's text does, and may declare names again and again */
   const char *kept = stays ? name->text : language_keep(language, name->text, name->length);
-  if (language->ended_early) return symbol->value = &symbol->own, symbol;
   struct symbol **list = depth > 0 ? &symbols->locals : &symbols->globals;
   *symbol = (struct symbol){
     .name = kept, .length = name->length, .depth = depth, .before = *list, .own.kind = VALUE_NONE};
   symbol->value = &symbol->own;
   if (!table_add(&symbols->table, language->arena, &symbol->entry, name->text, name->length))
-    language->ended_early = true;
-  else *list = symbol;
-  return symbol;
+    language_end(language, STATUS_LIMIT);
+  return *list = symbol;
 }
 
 void symbols_enter(struct symbols *symbols) { symbols->depth++; }
@@ -230,7 +228,6 @@ static void declare_end(struct language *language, struct declaration *declarati
 {
   language->declaration = declaration->outer;
   language->declared++;
-  if (language->ended_early) return; /* it may be the spare block */
   declaration->outer = language->symbols->ended;
   language->symbols->ended = declaration;
 }
@@ -249,7 +246,7 @@ void declare_value(struct language *language, struct declaration *declaration, c
 void declare_open(struct language *language, struct declaration *declaration, const struct value *value)
 {
   const struct name name = sources_name(language, language->tokens->last.place);
-  if (value->kind <= VALUE_COLOUR && !language_ended(language))
+  if (value->kind <= VALUE_COLOUR)
     language_tell(language, name.place,
                   name.length ? "unexpected '%.*s', expected ';'" : "the text ends here%.*s, expected ';'",
                   (int)name.length, name.text);

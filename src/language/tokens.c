@@ -37,13 +37,13 @@ static int solver_token(struct tokens *tokens, int token)
   return words_is(token) ? PSCN_TOKEN_WORD : token;
 }
 
-/* The next token that is not skipped; 0 also where reading must end early. Most are the grammar's. */
+/* The next token that is not skipped; 0 also after too many errors. Most are the grammar's. */
 static int scan(struct language *language)
 {
   struct tokens *tokens = language->tokens;
   const bool scene = !tokens->solver_only;
   for (;;) {
-    if (language_ended(language) || diagnostics_full(language->diagnostics)) return 0;
+    if (diagnostics_full(language->diagnostics)) return 0;
     const int token = directives_scan(language);
     if (scene && token > 0 && token < TOKEN_FIRST_PRIVATE) {
       if (token != PSCN_TOKEN_WORD || tokens->naming || tokens->solver_part != SOLVER_OUTSIDE) return token;
@@ -139,20 +139,17 @@ static void read_directive(struct language *language)
   struct tokens *tokens = language->tokens;
   const struct own *outer = tokens->own, own = {tokens->last.token, language->declaration, language->declared};
   const int skipping = tokens->skipping;
-  if (tokens->nested == MAX_NESTING) {
+  if (tokens->nested == MAX_NESTING)
     language_limit(language, tokens->last.place, "declarations are nested more than 200 deep");
-    return;
-  }
   tokens->last.again = true;
   tokens->start[0] = PSCN_TOKEN_START_DIRECTIVE;
   tokens->skipping = 0;
   tokens->own = NULL; /* not for the directive's own word */
   tokens->own_next = &own;
   tokens->nested++;
-  const int result = pscn_parse(language);
+  const bool read = pscn_parse(language) == 0;
   tokens->own = outer;
-  if (result == 1 && !language->ended_early) (void)tokens_recover(language);
-  if (result == 2) language->ended_early = true;
+  if (!read) (void)tokens_recover(language);
   tokens->nested--;
   tokens->skipping = skipping;
 }
@@ -204,14 +201,12 @@ bool tokens_parse(struct language *language, int start, struct value **out)
   const bool naming = tokens->naming;
   const struct own *own = tokens->own;
   *out = NULL;
-  if (tokens->nested == MAX_NESTING) {
+  if (tokens->nested == MAX_NESTING)
     language_limit(language, sources_here(language), "macros and conditions are nested more than 200 deep");
-    return false;
-  }
   const size_t begin = language->sources->frame->scan.end;
   const bool opens = start != PSCN_TOKEN_START_STRING && start != PSCN_TOKEN_START_INDICES;
   if (opens && directives_scan(language) != '(') {
-    if (!language_ended(language)) language_error(language, sources_here(language), "expected (");
+    language_error(language, sources_here(language), "expected (");
     pscn_scan_seek(&language->sources->frame->scan, begin);
     return false;
   }
@@ -223,11 +218,10 @@ bool tokens_parse(struct language *language, int start, struct value **out)
   tokens->naming = tokens->last.again = false;
   tokens->solver_part = SOLVER_OUTSIDE;
   tokens->parentheses = 0;
-  const int result = pscn_parse(language);
+  const bool read = pscn_parse(language) == 0;
   *out = language->list;
   language->list = NULL;
-  if (result == 2) language->ended_early = true;
-  if (result == 1) pass_parentheses(language, 1);
+  if (!read) pass_parentheses(language, 1);
   tokens->nested--;
   tokens->naming = naming;
   tokens->own = own;
@@ -235,7 +229,7 @@ bool tokens_parse(struct language *language, int start, struct value **out)
   tokens->parentheses = parentheses;
   tokens->depth = depth;
   tokens->last = last;
-  return result == 0 && !language->ended_early;
+  return read;
 }
 
 /* ---- recovery ---- */

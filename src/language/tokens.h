@@ -41,7 +41,7 @@ struct tokens {
   struct span recovered, told; /* where the last recovery began; what the last syntax error was about */
 };
 
-/* The next token of the grammar, described by tokens->last. 0 at the end, and where reading must end early. */
+/* The next token of the grammar, described by tokens->last. 0 at the end, and after too many errors. */
 int tokens_next(struct language *language);
 
 /* Parses what `start` begins with another parser, from the next token on, and gives its values as a list, which the

@@ -20,10 +20,9 @@ struct value *value_of(struct language *language, enum value_kind kind, struct s
   return value;
 }
 
-/* Its memory is reused for the next value, unless it is the spare block. */
+/* Its memory is reused for the next value. */
 struct value *value_last(struct language *language, struct value *value)
 {
-  if (language->ended_early) return value;
   value->next = language->unused;
   return language->unused = value;
 }
@@ -292,19 +291,10 @@ enum { LONGEST_STRING = 65536 };
 char *string_make(struct language *language, struct value *value, size_t length)
 {
   value->kind = VALUE_STRING;
-  value->text = "";
-  value->length = 0;
-  if (length > LONGEST_STRING) {
-    language_limit(language, value->place, "a string has more than 65,536 bytes");
-    return NULL;
-  }
-  char *text = language_afford(language, length) ? arena_alloc(language->arena, length + 1, 1) : NULL;
-  if (!text) {
-    language->ended_early = true;
-    return NULL;
-  }
-  value->text = text;
+  if (length > LONGEST_STRING) language_limit(language, value->place, "a string has more than 65,536 bytes");
   value->length = length;
+  char *text = language_alloc(language, length + 1);
+  value->text = text;
   return text;
 }
 
@@ -321,7 +311,6 @@ struct value *value_of_string(struct language *language, struct span place)
   struct value *value = value_of(language, VALUE_STRING, place);
   const struct name quoted = sources_name(language, place);
   char *to = string_make(language, value, quoted.length < 2 ? 0 : quoted.length - 2);
-  if (!to) return value;
   size_t length = 0;
   for (size_t k = 1; k + 1 < quoted.length; k++) {
     const bool escape = quoted.text[k] == '\\' && k + 2 < quoted.length;

@@ -74,7 +74,7 @@ void range_text(double low, double high, bool whole, char out[RANGE_TEXT_SIZE]);
 /* The string in quotes at `place`, its escapes resolved. */
 struct value *value_of_string(struct language *language, struct span place);
 
-/* A string of that many bytes, which are to be written to; NULL, after an error, if that is too long. */
+/* A string of that many bytes, which are to be written to. */
 char *string_make(struct language *language, struct value *value, size_t length);
 
 /* ---- arrays ---- */

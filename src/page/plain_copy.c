@@ -169,10 +169,7 @@ static void copy_text(struct copy *copy)
     copy->status = STATUS_LIMIT;
     return;
   }
-  if (!pscn_scan_open(&copy->scan, copy->source->text, copy->source->length, &copy->broken)) {
-    copy->status = STATUS_LIMIT;
-    return;
-  }
+  pscn_scan_open(&copy->scan, copy->source->text, copy->source->length, &copy->broken);
   int token = pscn_scan_next(&copy->scan);
   while (token != 0 && copy->status == STATUS_OK && copy->all->word[0] == '\0') {
     if (token == PSCN_TOKEN_SOLVER) {
