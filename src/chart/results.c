@@ -165,7 +165,6 @@ const char *const chart_files[FILES] = {"chart.csv", "chart.svg", "chart.html"};
 enum status chart_write(const struct chart *chart, struct text_buffer *out_text)
 {
   struct text_buffer content[FILES] = {{0}};
-  char path[FILES][PAGE_PATH_SIZE];
   json_t *values = make_values(chart);
   enum status status = STATUS_OK;
   if (values != NULL && chart->points[0].camera.hits > 0)
@@ -176,9 +175,8 @@ enum status chart_write(const struct chart *chart, struct text_buffer *out_text)
   fill_template(&content[CSV], TEMPLATE_CHART_CSV, values);
   fill_template(&content[PAGE], TEMPLATE_CHART_PAGE, values);
   fill_template(out_text, TEMPLATE_CHART_TABLE, values);
-  for (int k = 0; k < FILES; k++) snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, chart_files[k]);
   content[PAGE].failed = content[PAGE].failed || out_text->failed;
-  if (status == STATUS_OK) status = page_write(chart->listener, FILES, path, content);
+  if (status == STATUS_OK) status = page_write(chart->listener, chart->request->folder, FILES, chart_files, content);
   for (int k = 0; k < FILES; k++) text_buffer_free(&content[k]);
   json_decref(values);
   return status;

@@ -38,9 +38,9 @@ struct check_request {
   struct seconds parse;        /* time of reading the scene */
 };
 
-/* The name of file `number` among those that check_scene writes, or removes if there is nothing to write. */
-enum { CHECK_FILES = 2 * (CHECK_MAX_STEPS + 1) + 3, CHECK_NAME_SIZE = 48 };
-void check_file_name(size_t number, char out[CHECK_NAME_SIZE]);
+/* The names of the files that check_scene writes, or removes if there is nothing to write. */
+enum { CHECK_FILES = 2 * (CHECK_MAX_STEPS + 1) + 3 };
+extern const char *const check_files[CHECK_FILES];
 
 /* Renders, measures, and writes check.html, check.json and the pictures: all of them, or none if something fails or the
  * listener stops it. `scene` was read with the picture's size; the steps of its patches are changed. *out_text receives

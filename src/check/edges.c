@@ -6,8 +6,6 @@
 
 #include "geometry/vector.h"
 
-const char *const CHECK_EDGE_NAME[CHECK_EDGES] = {"no edge", "crease", "shadow", "silhouette"};
-
 /* Whether the distance jumps between two pixels: it changes far more than on the less obliquely seen of the two
  * surfaces. On a smooth surface, the other one is at most a few times as oblique. */
 static bool jumps(const double location[3], const struct check_sight *a, const struct check_sight *b)

@@ -51,8 +51,7 @@ static void look_at_row(struct check *check, struct tracer *tracer, size_t y, st
       const struct hit *hit = &hits[k];
       const double distance = hit->patch == HIT_NONE ? INFINITY : hit->t * vector_length(rays[k].direction);
       out[x + k] = (struct check_sight){.hit = *hit, .distance = distance};
-      pixels[k] = (struct check_pixel){
-        .distance = distance, .u = hit->u, .v = hit->v, .patch = hit->patch, .certainty = hit->certainty};
+      pixels[k].distance = distance;
     }
     for (size_t light = 0; light < lights; light++) {
       bool lit[PACKET_SIZE];
@@ -128,7 +127,7 @@ static struct compare_pair pair_of(const struct check *check, const struct check
                                .second_channel = RGB};
 }
 
-double check_pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y)
+static double pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y)
 {
   const float *a = image_pixel(&check->ours.picture, x, y), *b = image_pixel(&row->picture.image, x, y);
   double most = 0;
@@ -136,20 +135,18 @@ double check_pixel_difference(const struct check *check, const struct check_row 
   return most;
 }
 
-double check_limit(const struct check *check) { return check->request->fail.each + CODE_ROUNDING; }
-
 static void compare_row(const struct check *check, const unsigned char *mask, struct check_row *row)
 {
   const struct compare_pair pair = pair_of(check, row);
-  const double limit = check_limit(check);
+  const double limit = check->request->fail.each + CODE_ROUNDING;
   compare_images(&pair, &row->result, NULL, 1);
   for (int k = 0; k < CHECK_CODES; k++) row->over[k] = compare_count_over(&pair, CODE[k] / 255.0 + CODE_ROUNDING);
   row->over_limit = compare_count_over(&pair, limit);
   for (size_t y = 0; y < check->request->height; y++) {
     for (size_t x = 0; x < check->request->width; x++) {
       const size_t index = y * check->request->width + x;
-      const bool hit = check->ours.pixel[index].patch != HIT_NONE;
-      row->over_limit_on[check->ours.pixel[index].edge] += check_pixel_difference(check, row, x, y) > limit;
+      const bool hit = isfinite(check->ours.pixel[index].distance);
+      row->over_limit_on[check->ours.pixel[index].edge] += pixel_difference(check, row, x, y) > limit;
       row->mask_ours += hit && !mask[index];
       row->mask_theirs += !hit && mask[index];
     }
@@ -241,41 +238,6 @@ enum status check_measure_row(struct check *check, size_t steps)
   status = mask == NULL || check->warnings.failed ? listener_out_of_memory(check->listener) : ask(check, mask, row);
   if (status == STATUS_OK) compare_row(check, mask, row);
   free(mask);
-  return status;
-}
-
-/* ---- the worst pixels ---- */
-
-static size_t gap(size_t a, size_t b) { return a > b ? a - b : b - a; }
-
-static bool near_one(const struct check *check, size_t x, size_t y)
-{
-  const size_t apart_by = check->request->width / 20 + 4;
-  for (size_t k = 0; k < check->worst_count; k++)
-    if (gap(check->worst[k].x, x) < apart_by && gap(check->worst[k].y, y) < apart_by) return true;
-  return false;
-}
-
-enum status check_find_worst(struct check *check)
-{
-  const struct check_row *row = &check->row[check->row_count - 1];
-  struct ray rays[CHECK_WORST];
-  double distance[CHECK_WORST];
-  for (check->worst_count = 0; check->worst_count < CHECK_WORST; check->worst_count++) {
-    struct check_worst *worst = &check->worst[check->worst_count];
-    *worst = (struct check_worst){0};
-    for (size_t y = 0; y < check->request->height; y++) {
-      for (size_t x = 0; x < check->request->width; x++) {
-        const double difference = check_pixel_difference(check, row, x, y);
-        if (difference > worst->difference && !near_one(check, x, y))
-          *worst = (struct check_worst){.x = x, .y = y, .difference = difference};
-      }
-    }
-    if (worst->difference == 0) break;
-    rays[check->worst_count] = pixel_ray(check, worst->x, worst->y);
-  }
-  const enum status status = povray_ask(&check->povray, check->scene, check->worst_count, rays, distance, NULL);
-  for (size_t k = 0; status == STATUS_OK && k < check->worst_count; k++) check->worst[k].distance = distance[k];
   return status;
 }
 

@@ -5,42 +5,29 @@
 #include <stdlib.h>
 
 #include "base/json_text.h"
-#include "page/fill.h"
 #include "check/measure.h"
+#include "check/templates.h"
+#include "library/pscn.h"
+#include "page/fill.h"
 #include "page/page.h"
 #include "page/plot.h"
-#include "check/templates.h"
 
 /* The factor by which differences are magnified: 16 codes become full light. */
 #define MAGNIFIED 16.0
 
-enum { CROP = 15 }; /* size of the crop around one of the worst pixels */
+/* The files: our picture, two for each possible row, the numbers, the page. */
+enum { FILE_OURS, FILE_ROWS, FILE_JSON = CHECK_FILES - 2, FILE_PAGE };
 
-/* The files, in this order: our picture, two for each possible row, the numbers, the page. */
-enum { ROWS = CHECK_MAX_STEPS + 1, FILE_JSON = 1 + 2 * ROWS, FILE_PAGE, FILES = CHECK_FILES };
-
-struct results {
-  struct check *check;
-  char path[FILES][PAGE_PATH_SIZE];
-  bool failed; /* memory was short */
-};
-
-static void set(struct results *results, json_t *object, const char *key, json_t *value)
-{
-  results->failed = json_object_set_new(object, key, value) != 0 || results->failed;
-}
-
-static void append(struct results *results, json_t *list, json_t *value)
-{
-  results->failed = json_array_append_new(list, value) != 0 || results->failed;
-}
-
-/* ---- pictures ---- */
+const char *const check_files[CHECK_FILES] = {
+  "pscn.png",         "povray.png",   "difference.png",   "povray-1.png", "difference-1.png", "povray-2.png",
+  "difference-2.png", "povray-3.png", "difference-3.png", "povray-4.png", "difference-4.png", "povray-5.png",
+  "difference-5.png", "povray-6.png", "difference-6.png", "povray-7.png", "difference-7.png", "povray-8.png",
+  "difference-8.png", "check.json",   "check.html"};
 
 enum status check_make_pictures(struct check *check)
 {
   const size_t last = check->row_count - 1;
-  struct text_buffer *file = &check->file[1 + 2 * last];
+  struct text_buffer *file = &check->file[FILE_ROWS + 2 * last];
   struct image difference;
   page_png(&check->row[last].picture.image, &file[0]);
   file[1].failed = check_difference(check, &check->row[last], MAGNIFIED, &difference) != STATUS_OK;
@@ -51,195 +38,123 @@ enum status check_make_pictures(struct check *check)
   return file[0].failed || file[1].failed ? listener_out_of_memory(check->listener) : STATUS_OK;
 }
 
-void check_file_name(size_t number, char out[CHECK_NAME_SIZE])
+/* ---- the numbers; NULL if memory is short ---- */
+
+static json_t *name_of(const struct check *check, const struct check_row *row)
 {
-  const size_t row = (number - 1) / 2;
-  const char *name = number % 2 ? "povray" : "difference";
-  if (number == 0) snprintf(out, CHECK_NAME_SIZE, "pscn.png");
-  else if (number == FILE_JSON) snprintf(out, CHECK_NAME_SIZE, "check.json");
-  else if (number == FILE_PAGE) snprintf(out, CHECK_NAME_SIZE, "check.html");
-  else if (row == 0) snprintf(out, CHECK_NAME_SIZE, "%s.png", name);
-  else snprintf(out, CHECK_NAME_SIZE, "%s-%zu.png", name, row);
+  if (row->steps > 0) return json_sprintf("u_steps %zu", row->steps);
+  return json_string(check->dumped[0] == '\0' ? "as written" : "dump");
 }
 
-static void name_files(struct results *results)
+static json_t *distances_value(const struct check_distances *d)
 {
-  for (size_t k = 0; k < FILES; k++) {
-    char name[CHECK_NAME_SIZE];
-    check_file_name(k, name);
-    snprintf(results->path[k], PAGE_PATH_SIZE, "%s/%s", results->check->request->folder, name);
-  }
+  return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "rays", json_count(d->rays), "both", json_count(d->both),
+                   "only_here", json_count(d->only_ours), "only_there", json_count(d->only_theirs), "median",
+                   page_of_number(d->median), "percent_99", page_of_number(d->p99), "max", page_of_number(d->max));
 }
 
-/* Turns a picture into a value, and destroys it. */
-static json_t *take_picture(struct image *image)
+static json_t *row_value(const struct check *check, const struct check_row *row)
 {
-  struct text_buffer png;
-  page_png(image, &png);
-  json_t *value = page_of_png(&png);
-  text_buffer_free(&png);
-  image_destroy(image);
-  return value;
+  const struct compare_result *r = &row->result;
+  const size_t *on = row->over_limit_on;
+  json_t *root = json_pack(
+    "{s:o,s:o,s:{s:o,s:o,s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o},s:{s:o,s:o},s:{s:f,s:f}}", "u_steps",
+    row->steps == 0 ? json_null() : json_count(row->steps), "name", name_of(check, row), "over", "1/255",
+    json_count(row->over[0]), "4/255", json_count(row->over[1]), "16/255", json_count(row->over[2]), "limit",
+    json_count(row->over_limit), "over_limit_off_edges", json_count(on[CHECK_EDGE_NONE]), "mean",
+    page_of_number(r->mean), "rms", page_of_number(r->rms), "psnr", page_of_number(r->psnr), "max",
+    page_of_number(r->max), "worst", (int)r->worst_x, (int)r->worst_y, "over_limit_on", "crease",
+    json_count(on[CHECK_EDGE_CREASE]), "shadow", json_count(on[CHECK_EDGE_SHADOW]), "silhouette",
+    json_count(on[CHECK_EDGE_SILHOUETTE]), "mask", "only_here", json_count(row->mask_ours), "only_there",
+    json_count(row->mask_theirs), "time", "wall", row->picture.time.wall, "cpu", row->picture.time.cpu);
+  if (check->request->grid == 0) return root;
+  return json_join(root, json_pack("{s:o}", "distances", distances_value(&row->distances)));
 }
 
-/* CROP x CROP pixels around (x, y), black outside the picture. */
-static json_t *crop_of(const struct image *image, size_t x, size_t y)
+static json_t *check_value(const struct check *check)
 {
-  struct image crop;
-  if (image_create(CROP, CROP, 3, &crop) != STATUS_OK) return NULL;
-  for (size_t k = 0; k < CROP * CROP; k++) {
-    const size_t u = k % CROP, v = k / CROP;
-    const size_t from_x = x + u - CROP / 2, from_y = y + v - CROP / 2; /* negative numbers wrap to large ones */
-    for (size_t c = 0; c < 3 && from_x < image->width && from_y < image->height; c++)
-      image_pixel(&crop, u, v)[c] = image_pixel(image, from_x, from_y)[c];
-  }
-  for (int c = 0; c < 3; c++) snprintf(crop.channel[c].name, IMAGE_NAME_SIZE, "%c", "RGB"[c]);
-  return take_picture(&crop);
+  const struct check_request *request = check->request;
+  json_t *rows = json_array();
+  char message[256];
+  for (size_t k = 0; k < check->row_count; k++) rows = json_append(rows, row_value(check, &check->row[k]));
+  return json_pack("{s:s,s:s,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o,s:o,s:o,s:o},s:b,s:o,s:{s:f,s:f}}", "version", PSCN_VERSION,
+                   "povray", check->povray.version, "scene", page_of_text(request->path), "dumped",
+                   check->dumped[0] == '\0' ? json_null() : page_of_text(check->dumped), "size", (int)request->width,
+                   (int)request->height, "limits", "fail", page_of_number(request->fail.each), "failpercent",
+                   page_of_number(request->fail.percent), "allowfailures", page_of_number(request->fail.allowed_pixels),
+                   "hardfail", page_of_number(request->fail.any), "failpsnr", page_of_number(request->fail_psnr),
+                   "failmask", page_of_number(request->fail_mask), "within_limits",
+                   check_within_limits(check, message, sizeof message), "rows", rows, "time", "wall",
+                   check->ours.time.wall, "cpu", check->ours.time.cpu);
 }
 
-/* ---- what the page shows beside the numbers of check.json ---- */
+/* ---- what the page shows beside them ---- */
 
-static json_t *color_of(const float color[3], const char *name, size_t count)
+/* Adds to a row's numbers. Returns false if memory is short. */
+static bool add_to_row(const struct check *check, size_t index, json_t *value)
 {
-  return json_pack("{s:o,s:s,s:o}", "color",
-                   json_sprintf("rgb(%d, %d, %d)", (int)lroundf(255 * color[0]), (int)lroundf(255 * color[1]),
-                                (int)lroundf(255 * color[2])),
-                   "name", name, "count", json_count(count));
+  const struct check_row *row = &check->row[index];
+  json_t *percent = json_array();
+  for (int c = 0; c < CHECK_CODES; c++)
+    percent = json_append(percent,
+                          json_pack("{s:f}", "value", 100 * (double)row->over[c] / (double)row->result.pixels));
+  return json_object_update_new(value, json_pack("{s:o,s:i,s:o,s:b}", "percent", percent, "codes",
+                                                 (int)lround(255 * row->result.max), "difference",
+                                                 page_of_png(&check->file[FILE_ROWS + 2 * index + 1]), "last",
+                                                 index + 1 == check->row_count)) == 0;
 }
 
-static json_t *codes_of(const struct image *image, size_t x, size_t y)
+/* All values of figure, page and table; NULL if memory is short. */
+static json_t *page_value(const struct check *check, const char *verdict)
 {
-  const float *value = image_pixel(image, x, y);
-  return json_sprintf("%d %d %d", (int)lroundf(255 * value[0]), (int)lroundf(255 * value[1]),
-                      (int)lroundf(255 * value[2]));
-}
-
-static void add_rows(struct results *results, json_t *rows)
-{
-  for (size_t k = 0; k < results->check->row_count; k++) {
-    const struct check_row *row = &results->check->row[k];
-    json_t *value = json_array_get(rows, k), *percent = json_array();
-    for (int c = 0; c < CHECK_CODES; c++)
-      append(results, percent, json_pack("{s:f}", "value", 100 * (double)row->over[c] / (double)row->result.pixels));
-    set(results, value, "percent", percent);
-    set(results, value, "codes", json_count((size_t)lround(255 * row->result.max)));
-    set(results, value, "difference", page_of_png(&results->check->file[2 + 2 * k]));
-    set(results, value, "last", json_boolean(k + 1 == results->check->row_count));
-  }
-}
-
-/* Adds the pixels over the limit in the last row, by kind of edge. */
-static void add_places(struct results *results, json_t *root)
-{
-  static const char *const NAME[CHECK_EDGES] = {"not on an edge", "on creases", "on edges of shadows",
-                                                "on silhouettes"};
-  const struct check_row *last = &results->check->row[results->check->row_count - 1];
-  struct image map;
-  json_t *spots = json_array(), *edges = json_array();
-  for (int edge = CHECK_EDGES - 1; edge >= 0; edge--)
-    append(results, spots, color_of(CHECK_SPOT_COLOR[edge], NAME[edge], last->over_limit_on[edge]));
-  for (int edge = CHECK_EDGES - 1; edge > CHECK_EDGE_NONE; edge--)
-    append(results, edges, color_of(CHECK_EDGE_COLOR[edge], CHECK_EDGE_NAME[edge], 0));
-  set(results, root, "spots", spots);
-  set(results, root, "edges", edges);
-  set(results, root, "map", check_map(results->check, last, &map) == STATUS_OK ? take_picture(&map) : NULL);
-}
-
-static void add_worst(struct results *results, json_t *list)
-{
-  const struct check *check = results->check;
-  const struct check_row *last = &check->row[check->row_count - 1];
-  struct image difference = {0};
-  results->failed = results->failed || check_difference(check, last, MAGNIFIED, &difference) != STATUS_OK;
-  for (size_t k = 0; k < check->worst_count && !results->failed; k++) {
-    const struct check_worst *worst = &check->worst[k];
-    const struct {
-      const char *name;
-      const struct image *image;
-    } pictures[] = {{"pscn", &check->ours.picture}, {"POV-Ray", &last->picture.image}, {"difference", &difference}};
-    json_t *value = json_array_get(list, k), *crops = json_array();
-    for (size_t p = 0; p < sizeof pictures / sizeof pictures[0]; p++)
-      append(
-        results, crops,
-        json_pack("{s:s,s:o}", "name", pictures[p].name, "picture", crop_of(pictures[p].image, worst->x, worst->y)));
-    set(results, value, "crops", crops);
-    set(results, value, "x", json_count(worst->x));
-    set(results, value, "y", json_count(worst->y));
-    set(results, value, "codes", json_count((size_t)lround(255 * worst->difference)));
-    set(results, value, "our_color", codes_of(&check->ours.picture, worst->x, worst->y));
-    set(results, value, "their_color", codes_of(&last->picture.image, worst->x, worst->y));
-  }
-  image_destroy(&difference);
-}
-
-/* Draws how POV-Ray's answer approaches ours, if there is anything to draw. */
-static enum status add_figure(struct results *results, json_t *root)
-{
-  const struct check *check = results->check;
-  struct text_buffer figure;
+  const struct check_request *request = check->request;
+  const size_t last = check->row_count - 1;
   bool pixels = false, distances = false;
-  for (size_t k = 1; k < check->row_count; k++) {
+  for (size_t k = 1; k <= last; k++) {
     pixels = pixels || check->row[k].over[0] > 0;
     distances = distances || check->row[k].distances.p99 > 0;
   }
-  set(results, root, "pixels", json_boolean(pixels));
-  set(results, root, "converging", json_boolean(distances));
-  if (results->failed || !(pixels || distances)) return STATUS_OK;
-  const enum status status = plot_draw(check->listener, TEMPLATE_CHECK_FIGURE, root, &figure);
-  if (figure.length > 0) set(results, root, "figure", json_stringn(figure.text, figure.length));
+  json_t *root = json_join(
+    json_join(check_value(check), page_of_head(request->command_line)),
+    json_pack("{s:o,s:s,s:o,s:o,s:o,s:f,s:f,s:o,s:o,s:o,s:s?,s:b,s:b}", "name", page_of_file(request->path), "verdict",
+              verdict, "width", json_count(request->width), "height", json_count(request->height), "grid",
+              request->grid == 0 ? json_null() : json_count(request->grid), "limit", 255 * request->fail.each,
+              "magnified", MAGNIFIED, "ours", page_of_png(&check->file[FILE_OURS]), "theirs",
+              page_of_png(&check->file[FILE_ROWS + 2 * last]), "last_name", name_of(check, &check->row[last]),
+              "warnings", check->warnings.text, "pixels", pixels, "converging", distances));
+  for (size_t k = 0; k <= last && root != NULL; k++)
+    if (!add_to_row(check, k, json_array_get(json_object_get(root, "rows"), k))) json_decref(root), root = NULL;
+  return root;
+}
+
+/* Draws how POV-Ray's answer approaches ours, if there is anything to draw, and adds the figure to the values. */
+static enum status add_figure(const struct check *check, json_t **values)
+{
+  struct text_buffer figure;
+  if (!json_is_true(json_object_get(*values, "pixels")) && !json_is_true(json_object_get(*values, "converging")))
+    return STATUS_OK;
+  const enum status status = plot_draw(check->listener, TEMPLATE_CHECK_FIGURE, *values, &figure);
+  if (figure.length > 0) *values = json_join(*values, json_pack("{s:s%}", "figure", figure.text, figure.length));
   text_buffer_free(&figure);
   return status;
 }
 
-static enum status make_page(struct results *results, const char *verdict, struct text_buffer *out_text)
-{
-  struct check *check = results->check;
-  const struct check_request *request = check->request;
-  const struct text_buffer *theirs = &check->file[1 + 2 * (check->row_count - 1)];
-  json_t *root = json_join(check_json(check), page_of_head(request->command_line));
-  set(results, root, "name", page_of_file(request->path));
-  set(results, root, "verdict", json_string(verdict));
-  set(results, root, "width", json_count(request->width));
-  set(results, root, "height", json_count(request->height));
-  set(results, root, "grid", request->grid == 0 ? json_null() : json_count(request->grid));
-  set(results, root, "limit", json_real(255 * request->fail.each));
-  set(results, root, "magnified", json_real(MAGNIFIED));
-  set(results, root, "ours", page_of_png(&check->file[0]));
-  set(results, root, "theirs", page_of_png(theirs));
-  set(results, root, "last_name",
-      json_copy(json_object_get(json_array_get(json_object_get(root, "rows"), check->row_count - 1), "name")));
-  set(results, root, "warnings", check->warnings.length == 0 ? json_null() : json_string(check->warnings.text));
-  add_rows(results, json_object_get(root, "rows"));
-  add_places(results, root);
-  add_worst(results, json_object_get(root, "worst"));
-  const enum status status = add_figure(results, root);
-  fill_template(out_text, TEMPLATE_CHECK_TABLE, root);
-  fill_template(&check->file[FILE_PAGE], TEMPLATE_CHECK_PAGE, root);
-  json_decref(root);
-  return status;
-}
-
-static void make_json(struct results *results)
-{
-  json_t *root = check_json(results->check);
-  char *text = json_text(root, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
-  json_decref(root);
-  results->failed = results->failed || text == NULL;
-  text_buffer_format(&results->check->file[FILE_JSON], "%s\n", text == NULL ? "" : text);
-  free(text);
-}
-
 enum status check_write(struct check *check, const char *verdict, struct text_buffer *out_text)
 {
-  struct results *results = calloc(1, sizeof *results);
-  if (results == NULL) return listener_out_of_memory(check->listener);
-  results->check = check;
-  name_files(results);
-  page_png(&check->ours.picture, &check->file[0]);
-  make_json(results);
-  enum status status = results->failed ? STATUS_OK : make_page(results, verdict, out_text);
-  check->file[FILE_PAGE].failed = check->file[FILE_PAGE].failed || results->failed || out_text->failed;
-  if (status == STATUS_OK) status = page_write(check->listener, FILES, results->path, check->file);
-  free(results);
+  struct text_buffer *json = &check->file[FILE_JSON], *page = &check->file[FILE_PAGE];
+  page_png(&check->ours.picture, &check->file[FILE_OURS]);
+  json_t *numbers = check_value(check), *values = page_value(check, verdict);
+  char *text = json_text(numbers, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
+  json->failed = text == NULL;
+  text_buffer_format(json, "%s\n", text == NULL ? "" : text);
+  enum status status = add_figure(check, &values);
+  fill_template(out_text, TEMPLATE_CHECK_TABLE, values);
+  fill_template(page, TEMPLATE_CHECK_PAGE, values);
+  page->failed = page->failed || out_text->failed;
+  if (status == STATUS_OK)
+    status = page_write(check->listener, check->request->folder, CHECK_FILES, check_files, check->file);
+  json_decref(numbers);
+  json_decref(values);
+  free(text);
   return status;
 }

@@ -16,7 +16,6 @@ enum { OPTION_SOLVER = 1 };
 /* The command line's request. */
 struct request {
   struct scene_request scene; /* first: passed to scene_request_take */
-  const struct command *command;
   struct chart_request chart;
   struct output_folder folder;
   bool no_peers;
@@ -53,36 +52,29 @@ static enum status take_option(const struct command *command, void *context, int
   return language_parse_solver(argument, &diagnostics, &solvers[chart->solver_count++]);
 }
 
-static enum status work(void *context, const char *folder, struct text_buffer *out_text)
+static enum status work(void *context, const struct output_job *job)
 {
-  struct request *request = context;
-  struct command_ear ear = {request->command, request->scene.quiet};
-  const struct listener listener = command_listener(&ear);
-  struct scene *scene = NULL;
-  request->chart.folder = folder;
-  request->chart.memory = scene_request_memory(&request->scene);
-  request->chart.width = request->scene.width;
-  request->chart.height = request->scene.height;
-  enum status status = scene_file_load(request->command, &request->scene, &scene);
-  for (size_t k = 0; k < CHART_FILES && status == STATUS_OK; k++)
-    status = scene_file_check_in(request->command, &request->scene, scene, folder, chart_files[k]);
-  if (status == STATUS_OK) status = chart_scene(&request->chart, scene, &listener, out_text);
-  scene_destroy(scene);
-  return status;
+  struct chart_request *chart = &((struct request *)context)->chart;
+  chart->folder = job->folder;
+  return chart_scene(chart, job->scene, job->listener, job->out_text);
 }
 
-static const struct request DEFAULTS = {.scene = SCENE_REQUEST_DEFAULT,
-                                        .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
-                                        .folder = {.suffix = "-chart", .page = "chart.html"}};
+static const struct request DEFAULTS = {
+  .scene = SCENE_REQUEST_DEFAULT,
+  .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
+  .folder = {.suffix = "-chart", .files = chart_files, .file_count = CHART_FILES}};
 
 static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
   struct request *request = context;
-  request->command = command;
-  request->chart.path = request->scene.path = request->folder.scene = line->positional[0];
-  request->chart.command_line = line->text;
-  request->chart.peers = !request->no_peers;
-  return output_folder_fill(command, &request->folder, request->scene.quiet, work, request);
+  struct chart_request *chart = &request->chart;
+  chart->path = request->scene.path = line->positional[0];
+  chart->command_line = line->text;
+  chart->width = request->scene.width;
+  chart->height = request->scene.height;
+  chart->memory = scene_request_memory(&request->scene);
+  chart->peers = !request->no_peers;
+  return output_folder_fill(command, &request->folder, &request->scene, work, request);
 }
 
 static void end(void *context) { free(((struct request *)context)->chart.solvers); }

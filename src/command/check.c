@@ -18,11 +18,12 @@ enum { MAX_PIXELS = 1 << 26, MAX_GRID = 100000 };
 
 /* The command line's request. */
 struct request {
-  const struct command *command;
   struct scene_request scene;
   struct check_request check;
   struct output_folder folder;
-  const char **options; /* owned; the texts are not */
+  const char **options; /* owned, as are the next two; the texts are not */
+  const char **folders; /* in which included files are looked for */
+  char *declared;       /* texts of options */
   bool dump;
 };
 
@@ -58,9 +59,8 @@ static enum status take_povray_option(const struct command *command, struct requ
   return STATUS_OK;
 }
 
-/* Adds POV-Ray options for --clock and the numbers of --declare, where POV-Ray reads the scene's file. The caller frees
- * *out_texts, the options' texts. */
-static enum status declare_numbers(const struct command *command, struct request *request, char **out_texts)
+/* Adds POV-Ray options for --clock and the numbers of --declare, where POV-Ray reads the scene's file. */
+static enum status declare_numbers(const struct command *command, struct request *request)
 {
   const struct scene_request *scene = &request->scene;
   enum status status = STATUS_OK;
@@ -68,7 +68,7 @@ static enum status declare_numbers(const struct command *command, struct request
   size_t size = sizeof "Clock=" + NUMBER_TEXT_SIZE, used = 0;
   for (size_t k = 0; k < scene->number_count; k++)
     size += sizeof "Declare==" + scene->numbers[k].name_length + NUMBER_TEXT_SIZE;
-  char *texts = *out_texts = malloc(size);
+  char *texts = request->declared = malloc(size);
   if (texts == NULL) return command_out_of_memory(command);
   for (size_t k = 0; k < scene->number_count && status == STATUS_OK; k++) {
     const struct language_number *given = &scene->numbers[k];
@@ -114,61 +114,49 @@ static const char *dumped_because(const struct request *request)
   return file ? NULL : "the scene is not a file that can be read again";
 }
 
-static enum status work(void *context, const char *folder, struct text_buffer *out_text)
+static enum status work(void *context, const struct output_job *job)
 {
-  struct request *request = context;
-  struct check_request *check = &request->check;
-  struct command_ear ear = {request->command, request->scene.quiet};
-  const struct listener listener = command_listener(&ear);
-  const struct seconds start = seconds_now();
-  struct scene *scene = NULL;
-  check->folder = folder;
-  check->memory = scene_request_memory(&request->scene);
-  const char **folders = scene_request_folders(&request->scene);
-  check->folders = folders;
-  enum status status = folders == NULL ? command_out_of_memory(request->command)
-                                       : scene_file_load(request->command, &request->scene, &scene);
-  check->parse = seconds_since(start);
-  for (size_t k = 0; k < CHECK_FILES && status == STATUS_OK; k++) {
-    char name[CHECK_NAME_SIZE];
-    check_file_name(k, name);
-    status = scene_file_check_in(request->command, &request->scene, scene, folder, name);
-  }
-  if (status == STATUS_OK) status = check_scene(check, scene, &listener, out_text);
-  scene_destroy(scene);
-  free(folders);
-  return status;
+  struct check_request *check = &((struct request *)context)->check;
+  check->folder = job->folder;
+  check->parse = job->parse;
+  return check_scene(check, job->scene, job->listener, job->out_text);
 }
 
-static const struct request DEFAULTS = {.scene = SCENE_REQUEST_DEFAULT,
-                                        .check = {.program = "povray",
-                                                  .timeout = POVRAY_TIMEOUT,
-                                                  .steps = 6,
-                                                  .grid = 8,
-                                                  .fail = {.each = 4.0 / 255, .percent = 0.3, .any = INFINITY},
-                                                  .fail_psnr = 40,
-                                                  .fail_mask = 0.3},
-                                        .folder = {.suffix = "-check", .page = "check.html"}};
+static const struct request DEFAULTS = {
+  .scene = SCENE_REQUEST_DEFAULT,
+  .check = {.program = "povray",
+            .timeout = POVRAY_TIMEOUT,
+            .steps = 6,
+            .grid = 8,
+            .fail = {.each = 4.0 / 255, .percent = 0.3, .any = INFINITY},
+            .fail_psnr = 40,
+            .fail_mask = 0.3},
+  .folder = {.suffix = "-check", .files = check_files, .file_count = CHECK_FILES}};
 
 static enum status run(const struct command *command, void *context, const struct command_line *line)
 {
   struct request *request = context;
   struct check_request *check = &request->check;
-  char *declared = NULL;
-  request->command = command;
-  check->path = request->scene.path = request->folder.scene = line->positional[0];
+  check->path = request->scene.path = line->positional[0];
+  check->command_line = line->text;
   check->width = request->scene.width;
   check->height = request->scene.height;
-  check->command_line = line->text;
-  enum status status = prepare(command, check);
+  check->memory = scene_request_memory(&request->scene);
   check->dumped = dumped_because(request);
-  if (status == STATUS_OK && check->dumped == NULL) status = declare_numbers(command, request, &declared);
-  if (status == STATUS_OK) status = output_folder_fill(command, &request->folder, request->scene.quiet, work, request);
-  free(declared);
-  return status;
+  check->folders = request->folders = scene_request_folders(&request->scene);
+  if (check->folders == NULL) return command_out_of_memory(command);
+  enum status status = prepare(command, check);
+  if (status == STATUS_OK && check->dumped == NULL) status = declare_numbers(command, request);
+  return status == STATUS_OK ? output_folder_fill(command, &request->folder, &request->scene, work, request) : status;
 }
 
-static void end(void *context) { free(((struct request *)context)->options); }
+static void end(void *context)
+{
+  struct request *request = context;
+  free(request->options);
+  free(request->folders);
+  free(request->declared);
+}
 
 const struct command command_check = {
   .name = "check",

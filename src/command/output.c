@@ -125,40 +125,58 @@ char *output_name(const char *scene, const char *suffix)
   return name;
 }
 
-/* Makes the folder. *owned is its name if the caller must free it, else NULL. */
-static enum status make_folder(const struct command *command, const struct output_folder *folder, char **owned,
-                               const char **out_path, bool *out_made)
+/* Whether one of the files may be written; prints the error if not. */
+static enum status check_file(const struct command *command, const struct scene_request *request,
+                              const struct scene *scene, const char *folder, const char *name)
+{
+  struct text_buffer path = {0};
+  text_buffer_format(&path, "%s/%s", folder, name);
+  enum status status = path.failed ? command_out_of_memory(command)
+                                   : scene_file_spare(command, request, scene, path.text);
+  if (status == STATUS_OK) status = output_probe(command, path.text);
+  text_buffer_free(&path);
+  return status;
+}
+
+static enum status make_folder(const struct command *command, const char *path, bool *out_made)
 {
   struct stat state;
-  const char *scene = output_is_standard(folder->scene) ? "stdin" : base_of(folder->scene);
-  *owned = folder->path == NULL ? output_name(scene, folder->suffix) : NULL;
-  *out_path = folder->path == NULL ? *owned : folder->path;
-  if (*out_path == NULL) return command_out_of_memory(command);
-  *out_made = mkdir(*out_path, 0777) == 0;
-  if (*out_made || (errno == EEXIST && stat(*out_path, &state) == 0 && S_ISDIR(state.st_mode))) return STATUS_OK;
-  command_error(command, "cannot create the folder '%s': %s", *out_path, strerror(errno));
+  *out_made = mkdir(path, 0777) == 0;
+  if (*out_made || (errno == EEXIST && stat(path, &state) == 0 && S_ISDIR(state.st_mode))) return STATUS_OK;
+  command_error(command, "cannot create the folder '%s': %s", path, strerror(errno));
   return STATUS_FILE;
 }
 
-enum status output_folder_fill(const struct command *command, const struct output_folder *folder, bool quiet,
-                               output_folder_work *work, void *context)
+enum status output_folder_fill(const struct command *command, const struct output_folder *folder,
+                               const struct scene_request *request,
+                               enum status work(void *context, const struct output_job *job), void *context)
 {
-  char *owned;
-  const char *path;
-  bool made = false;
+  struct command_ear ear = {command, request->quiet};
+  const struct listener listener = command_listener(&ear);
   struct text_buffer text = {0};
-  enum status status = make_folder(command, folder, &owned, &path, &made);
+  const char *scene = output_is_standard(request->path) ? "stdin" : base_of(request->path);
+  char *owned = folder->path == NULL ? output_name(scene, folder->suffix) : NULL;
+  struct output_job job = {
+    .folder = folder->path == NULL ? owned : folder->path, .listener = &listener, .out_text = &text};
+  bool made = false;
+  enum status status = job.folder == NULL ? command_out_of_memory(command) : make_folder(command, job.folder, &made);
   if (status == STATUS_OK) {
+    const struct seconds start = seconds_now();
     interrupt_defer();
-    status = work(context, path, &text);
+    status = scene_file_load(command, request, &job.scene);
+    job.parse = seconds_since(start);
+    for (size_t k = 0; k < folder->file_count && status == STATUS_OK; k++)
+      status = check_file(command, request, job.scene, job.folder, folder->files[k]);
+    if (status == STATUS_OK) status = work(context, &job);
+    scene_destroy(job.scene);
     if (atomic_load(&interrupt_signal) != 0) status = STATUS_INTERRUPTED;
     const bool done = status == STATUS_OK || status == STATUS_DIFFERENT;
-    if (!done && made) (void)rmdir(path); /* fails, as it should, if the folder is not empty */
+    if (!done && made) (void)rmdir(job.folder); /* fails, as it should, if the folder is not empty */
     interrupt_resume();
-    if (done && !quiet) {
+    if (done && !request->quiet) {
       text_buffer_add_text(&text, "\n");
-      text_buffer_add_printable(&text, path, strlen(path));
-      printf("%s/%s shows it\n", text.text, folder->page);
+      text_buffer_add_printable(&text, job.folder, strlen(job.folder));
+      printf("%s/%s shows it\n", text.text, folder->files[folder->file_count - 1]);
       const enum status written = command_finish_output(command);
       status = written == STATUS_OK ? status : written;
     }

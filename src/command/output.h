@@ -5,8 +5,11 @@
 #include <stdbool.h>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
+#include "base/listener.h"
 #include "base/text_buffer.h"
 #include "command/command.h"
+#include "command/scene_file.h"
 #include "image/image_file.h"
 
 /* Whether the path is "-": standard output, or as a scene's path standard input. */
@@ -47,14 +50,26 @@ char *output_name(const char *scene, const char *suffix);
 /* A folder of results. If `path` is NULL, it is named after the scene, with `suffix`, and is in the current folder,
  * because the scene's folder may belong to somebody else. */
 struct output_folder {
-  const char *path, *scene, *suffix;
-  const char *page; /* the file in it that presents the others */
+  const char *path, *suffix;
+  const char *const *files; /* file_count of them; the last one is the page that presents the others */
+  size_t file_count;
 };
 
-/* Makes the folder if needed and has `work` fill it, with signals deferred. Prints the text of `work` to standard
- * output unless `quiet`. Removes a folder that it made if `work` fails. Returns the status of `work`. */
-typedef enum status output_folder_work(void *context, const char *folder, struct text_buffer *out_text);
-enum status output_folder_fill(const struct command *command, const struct output_folder *folder, bool quiet,
-                               output_folder_work *work, void *context) STATUS_MUST_CHECK;
+/* What is to be done with a scene: its results go to the folder, and a text for standard output to out_text. */
+struct output_job {
+  const char *folder;
+  struct scene *scene;
+  struct seconds parse; /* the time of reading the scene */
+  const struct listener *listener;
+  struct text_buffer *out_text;
+};
+
+/* Makes the folder if needed, reads the scene, checks that the files can be written, and has `work` write them, with
+ * signals deferred. Prints the text unless the request is quiet. Removes a folder that it made if `work` fails. Returns
+ * the status of `work`. */
+enum status output_folder_fill(const struct command *command, const struct output_folder *folder,
+                               const struct scene_request *request,
+                               enum status work(void *context, const struct output_job *job),
+                               void *context) STATUS_MUST_CHECK;
 
 #endif

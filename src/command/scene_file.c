@@ -226,15 +226,3 @@ enum status scene_file_spare(const struct command *command, const struct scene_r
     status = output_spare(command, output, scene->files[k]);
   return status;
 }
-
-enum status scene_file_check_in(const struct command *command, const struct scene_request *request,
-                                const struct scene *scene, const char *folder, const char *name)
-{
-  struct text_buffer path = {0};
-  text_buffer_format(&path, "%s/%s", folder, name);
-  enum status status = path.failed ? command_out_of_memory(command)
-                                   : scene_file_spare(command, request, scene, path.text);
-  if (status == STATUS_OK) status = output_probe(command, path.text);
-  text_buffer_free(&path);
-  return status;
-}

@@ -95,11 +95,6 @@ bool scene_file_warn(const struct command *command, const struct scene *scene);
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,
                              const struct scene *scene, const char *output) STATUS_MUST_CHECK;
 
-/* The same for a file in a folder, and for a scene that has been read. Returns STATUS_FILE, after printing the error,
- * if the file cannot be written. */
-enum status scene_file_check_in(const struct command *command, const struct scene_request *request,
-                                const struct scene *scene, const char *folder, const char *name) STATUS_MUST_CHECK;
-
 /* Diagnostics that are printed to stderr. */
 struct diagnostics stderr_diagnostics(const struct command *command);
 

@@ -13,21 +13,25 @@
 #include "image/image_file.h"
 #include "library/pscn.h"
 
-enum status page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
+enum status page_write(const struct listener *listener, const char *folder, size_t count, const char *const names[],
                        const struct text_buffer pages[])
 {
   struct atomic_file *files = calloc(count, sizeof *files);
-  bool failed = files == NULL;
+  struct text_buffer *paths = calloc(count, sizeof *paths);
+  bool failed = files == NULL || paths == NULL;
   size_t which;
   int reason;
   for (size_t k = 0; k < count && !failed; k++) {
-    files[k] = (struct atomic_file){paths[k], pages[k].text, pages[k].length};
-    failed = pages[k].failed;
+    text_buffer_format(&paths[k], "%s/%s", folder, names[k]);
+    files[k] = (struct atomic_file){paths[k].text, pages[k].text, pages[k].length};
+    failed = paths[k].failed || pages[k].failed;
   }
   enum status status = failed ? listener_out_of_memory(listener)
                               : atomic_files_write(files, count, listener->stop, &which, &reason);
   if (!failed && (status == STATUS_FILE || status == STATUS_LIMIT))
     status = listener_fail(listener, status, "cannot write '%s': %s", files[which].path, strerror(reason));
+  for (size_t k = 0; k < count && paths != NULL; k++) text_buffer_free(&paths[k]);
+  free(paths);
   free(files);
   return status;
 }

@@ -9,10 +9,9 @@
 #include "base/text_buffer.h"
 #include "image/image.h"
 
-/* Writes pages under their names, all or none (base/atomic_file.h); for an empty page, removes the file. Errors go to
- * the listener. */
-enum { PAGE_PATH_SIZE = 4096 };
-enum status page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
+/* Writes pages under their names in the folder, all or none (base/atomic_file.h); for an empty page, removes the file.
+ * Errors go to the listener. */
+enum status page_write(const struct listener *listener, const char *folder, size_t count, const char *const names[],
                        const struct text_buffer pages[]) STATUS_MUST_CHECK;
 
 /* Values; NULL if memory is short. A number becomes null if it is NAN or infinite; a foreign text becomes printable. */

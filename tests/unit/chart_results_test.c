@@ -13,12 +13,12 @@
 
 static bool failed; /* a page is not whole */
 
-enum status __wrap_page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
-                              const struct text_buffer content[]);
-enum status __wrap_page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
-                              const struct text_buffer content[])
+enum status __wrap_page_write(const struct listener *listener, const char *folder, size_t count,
+                              const char *const names[], const struct text_buffer content[]);
+enum status __wrap_page_write(const struct listener *listener, const char *folder, size_t count,
+                              const char *const names[], const struct text_buffer content[])
 {
-  (void)listener, (void)paths;
+  (void)listener, (void)folder, (void)names;
   failed = false;
   for (size_t k = 0; k < count; k++) failed = failed || content[k].failed;
   return STATUS_OK;

@@ -1,5 +1,4 @@
-/* The measurements of check: our own picture, one of POV-Ray's rows beside it, the worst pixels and their map.
- * POV-Ray's answers are made up here. */
+/* The measurements of check: our own picture, and one of POV-Ray's rows beside it. POV-Ray's answers are made up here. */
 #include "check/measure.h"
 
 #include <math.h>
@@ -85,7 +84,7 @@ static struct check check_of(size_t width, size_t height, size_t grid)
   assert_int_equal(image_create(width, height, 3, &check.ours.picture), STATUS_OK);
   memset(their_picture, 0, sizeof their_picture);
   for (size_t k = 0; k < width * height; k++) {
-    pixels[k] = (struct check_pixel){.patch = 0, .distance = 1};
+    pixels[k] = (struct check_pixel){.distance = 1};
     their_distance[k] = 1;
     their_mask[k] = 1;
   }
@@ -134,7 +133,7 @@ TEST(differences_are_counted)
 TEST(hits_of_one_alone_are_counted)
 {
   struct check check = check_of(5, 2, 0);
-  pixels[0].patch = pixels[1].patch = HIT_NONE;
+  pixels[0].distance = pixels[1].distance = INFINITY;
   their_mask[1] = 0; /* both miss */
   for (int k = 5; k < 8; k++) their_mask[k] = 0;
   const struct check_row *row = measure_row(&check);
@@ -194,63 +193,6 @@ TEST(distances_are_those_of_a_grid)
   free_check(&check);
 }
 
-/* The largest differences, none near a larger one, each with what POV-Ray sees there. */
-TEST(the_worst_are_apart)
-{
-  enum { WIDTH = 40 }; /* near: within 5 pixels */
-  static const struct {
-    size_t x, y;
-    int code;
-    bool near;
-  } differing[] = {{20, 10, 200, false}, {25, 15, 190, true}, {26, 10, 180, false}, {20, 16, 170, false},
-                   {14, 10, 160, false}, {15, 5, 150, true},  {39, 29, 10, false},  {0, 0, 1, false}};
-  struct check check = check_of(WIDTH, 30, 0);
-  for (size_t k = 0; k < 8; k++)
-    their_picture[3 * (differing[k].y * WIDTH + differing[k].x) + 1] = (float)differing[k].code / 255;
-  for (size_t k = 0; k < 8; k++) their_distance[k] = 10 + (double)k;
-  (void)measure_row(&check);
-  assert_int_equal(check_find_worst(&check), STATUS_OK);
-  assert_int_equal(check.worst_count, 6);
-  for (size_t k = 0, found = 0; k < 8; k++) {
-    if (differing[k].near) continue;
-    const struct check_worst *worst = &check.worst[found];
-    assert_true(worst->x == differing[k].x && worst->y == differing[k].y);
-    assert_true(worst->difference == (double)((float)differing[k].code / 255));
-    assert_true(worst->distance == 10 + (double)found && is_ray_of(&check, &asked[found], worst->x, worst->y));
-    found++;
-  }
-  free_check(&check);
-}
-
-static bool is_color(const struct image *image, size_t x, size_t y, const float color[3])
-{
-  return memcmp(image_pixel(image, x, y), color, 3 * sizeof *color) == 0;
-}
-
-/* Edges have their colours. A pixel over the limit has its edge's colour, and a larger spot if it lies off all
- * edges. */
-TEST(the_map_shows_them)
-{
-  struct check check = check_of(101, 5, 0);
-  image_pixel(&check.ours.picture, 0, 0)[1] = 1;
-  pixels[4].edge = CHECK_EDGE_SHADOW;
-  pixels[2 * 101 + 20].edge = pixels[2 * 101 + 50].edge = CHECK_EDGE_SILHOUETTE;
-  their_picture[1] = 1;
-  their_picture[3 * (2 * 101 + 20)] = their_picture[3 * (2 * 101 + 80)] = 0.5f;
-  struct image map;
-  assert_int_equal(check_map(&check, measure_row(&check), &map), STATUS_OK);
-  assert_true(image_pixel(&map, 0, 0)[0] == 0 && image_pixel(&map, 0, 0)[1] > 0.1f &&
-              image_pixel(&map, 0, 0)[1] < 0.5f);
-  assert_true(is_color(&map, 4, 0, CHECK_EDGE_COLOR[CHECK_EDGE_SHADOW]));
-  assert_true(is_color(&map, 50, 2, CHECK_EDGE_COLOR[CHECK_EDGE_SILHOUETTE]));
-  assert_true(is_color(&map, 20, 2, CHECK_SPOT_COLOR[CHECK_EDGE_SILHOUETTE]));
-  assert_false(is_color(&map, 21, 2, CHECK_SPOT_COLOR[CHECK_EDGE_SILHOUETTE]));
-  for (size_t k = 0; k < 9; k++) assert_true(is_color(&map, 79 + k % 3, 1 + k / 3, CHECK_SPOT_COLOR[CHECK_EDGE_NONE]));
-  assert_false(is_color(&map, 82, 2, CHECK_SPOT_COLOR[CHECK_EDGE_NONE]));
-  image_destroy(&map);
-  free_check(&check);
-}
-
 /* The rectangle x0 <= x <= x1, |y| <= y1 at depth z. */
 static struct scene_patch rectangle(double x0, double x1, double y1, double z)
 {
@@ -298,7 +240,6 @@ TEST(our_pixels_are_known)
     const bool shadow = (y == 3 || y == 4) && (x == LIT - 1 || x == LIT);
     const double z = left ? 2 : 4, along = ((double)x + 0.5) / WIDTH - 0.5, up = 0.5 - ((double)y + 0.5) / HEIGHT;
     const struct check_pixel *pixel = &check.ours.pixel[k];
-    assert_int_equal(pixel->patch, left ? 0 : hit ? 1 : HIT_NONE);
     assert_int_equal(pixel->edge, silhouette ? CHECK_EDGE_SILHOUETTE : shadow ? CHECK_EDGE_SHADOW : CHECK_EDGE_NONE);
     if (hit) assert_true(fabs(pixel->distance / (z * sqrt(1 + along * along + up * up)) - 1) < 1e-12);
     else assert_true(isinf(pixel->distance));
