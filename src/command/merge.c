@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "base/text_buffer.h"
 #include "command/command.h"
 #include "command/output.h"
@@ -19,6 +18,8 @@ struct request {
 };
 
 enum { OPTION_BITS = 1 };
+
+static const char SECONDS[] = "pscn:render_seconds";
 
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
@@ -147,24 +148,12 @@ static void count_tiles(const struct merge *merge, const struct piece *piece)
 
 /* ---- pixels ---- */
 
-static double seconds_of(const struct image *image)
-{
-  double seconds = 0;
-  size_t length, used;
-  const char *text = image_metadata(image, "pscn:render_seconds", &length);
-  if (text == NULL || number_read(text, length, &seconds, &used) != NUMBER_FINITE) return 0;
-  return seconds;
-}
-
 /* Whether a piece still is what its header said: it may have been overwritten meanwhile. */
 static bool is_same(const struct piece *header, const struct piece *whole)
 {
   char message[IMAGE_MESSAGE_SIZE];
-  bool same = header->number == whole->number && header->count == whole->count &&
-              piece_compare(&whole->image, &header->image, message, sizeof message) == 0;
-  for (size_t t = 0; t < header->tiles.count && same; t++)
-    same = atomic_load(&header->tiles.rows[t]) == atomic_load(&whole->tiles.rows[t]);
-  return same;
+  return strcmp(image_text(&header->image, "pscn:sum"), image_text(&whole->image, "pscn:sum")) == 0 &&
+         piece_compare(&whole->image, &header->image, message, sizeof message) == 0;
 }
 
 /* A file's tiles count only after its pixels have been read, so that a damaged file does not exclude another one. */
@@ -183,7 +172,7 @@ static enum status read_files(struct merge *merge)
     else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it was rewritten meanwhile");
     else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "", "it lacks a channel");
     else count_tiles(merge, &whole);
-    merge->seconds += seconds_of(&whole.image);
+    merge->seconds += atof(image_text(&whole.image, SECONDS));
     piece_destroy(&whole);
     if (status == STATUS_LIMIT) return status;
   }
@@ -218,49 +207,23 @@ static enum status print_missing(const struct merge *merge, bool *out_any)
 
 /* ---- the picture ---- */
 
-enum { MOST_TEXTS = 40 }; /* pscn's own are 14; of more, which only another program can have added, some are lost */
-
-/* Whether the metadata of this name describe a piece, not the picture. */
-static bool is_own(const char *name)
+/* The picture's metadata are those of the pieces, but for the date and the time that rendering took. */
+static bool describe(const struct merge *merge, struct image *picture)
 {
-  static const char *const own[] = {"pscn:tile", "pscn:done", "pscn:sum", "pscn:render_seconds"};
-  bool is = false;
-  for (size_t k = 0; k < sizeof own / sizeof *own; k++) is |= strcmp(name, own[k]) == 0;
-  return is;
+  const struct image *piece = &merge->first->piece.image;
+  bool enough = report_sign(picture);
+  for (const char *name = NULL; enough && (name = piece_next_text(piece, name)) != NULL;)
+    if (strcmp(name, SECONDS) == 0) enough = image_add_text(picture, name, "%.3f", merge->seconds);
+    else enough = image_add_text(picture, name, "%s", name + strlen(name) + 1);
+  return enough;
 }
 
-/* The metadata of the picture: those of the pieces that describe the picture, and the present date. `lines` is
- * overwritten. */
-static size_t list_texts(char *lines, const char *date, const char *seconds, struct image_attribute out[MOST_TEXTS])
-{
-  size_t count = 0;
-  out[count++] = (struct image_attribute){"Software", "pscn " PSCN_VERSION};
-  out[count++] = (struct image_attribute){"DateTime", date};
-  out[count++] = (struct image_attribute){"pscn:render_seconds", seconds};
-  for (char *name = strtok(lines, "\n"); name != NULL && count < MOST_TEXTS; name = strtok(NULL, "\n")) {
-    char *text = strchr(name, '=');
-    *text++ = '\0';
-    if (!is_own(name)) out[count++] = (struct image_attribute){name, text};
-  }
-  return count;
-}
-
-static enum status write_picture(const struct merge *merge)
+static enum status write_picture(struct merge *merge)
 {
   const struct request *request = merge->request;
-  struct image_attribute texts[MOST_TEXTS];
-  char date[REPORT_DATE_SIZE], seconds[32], *lines;
-  report_date(date);
-  snprintf(seconds, sizeof seconds, "%.3f", merge->seconds);
-  lines = strdup(merge->first->piece.image.metadata);
-  if (lines == NULL) return command_out_of_memory(merge->command);
-  const struct image_encoding encoding = {.format = request->format,
-                                          .bits = (int)request->bits,
-                                          .attributes = texts,
-                                          .attribute_count = list_texts(lines, date, seconds, texts)};
-  const enum status status = output_picture(merge->command, &merge->picture.image, &encoding, request->output);
-  free(lines);
-  return status;
+  const struct image_encoding encoding = {.format = request->format, .bits = (int)request->bits};
+  if (!describe(merge, &merge->picture.image)) return command_out_of_memory(merge->command);
+  return output_picture(merge->command, &merge->picture.image, &encoding, request->output);
 }
 
 static enum status put_together(struct merge *merge)

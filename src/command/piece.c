@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text_buffer.h"
 #include "command/values.h"
 
 /* The metadata that two parts of a picture share, and their names in messages. */
@@ -20,40 +19,10 @@ static const struct {
   {"pscn:version", "version"},   {"pscn:arithmetic", "arithmetic"},
 };
 
-enum {
-  MOST_PIECES = 1000000,
-  SUM_SIZE = 17 /* a checksum as text: 16 digits and a NUL */
-};
+/* Those that only a part has. */
+static const char TILE[] = "pscn:tile", DONE[] = "pscn:done", SUM[] = "pscn:sum";
 
-bool piece_number(const char *text, size_t length, size_t *out_number, size_t *out_count)
-{
-  const char *end = text + length;
-  size_t number, count;
-  if (!value_digits(&text, end, MOST_PIECES, &number) || !value_sign(&text, end, '/') ||
-      !value_digits(&text, end, MOST_PIECES, &count) || text != end || number < 1 || number > count)
-    return false;
-  *out_number = number;
-  *out_count = count;
-  return true;
-}
-
-/* The lines of struct image's metadata, as they will be read back; NULL if memory is short. */
-static char *metadata_lines(const struct image_attribute *attributes, size_t count)
-{
-  size_t size = 1, used = 0;
-  for (size_t k = 0; k < count; k++) size += strlen(attributes[k].name) + strlen(attributes[k].text) + 2;
-  char *lines = malloc(size);
-  if (lines == NULL) return NULL;
-  lines[0] = '\0';
-  for (size_t k = 0; k < count; k++)
-    if (strncmp(attributes[k].name, "pscn:", 5) == 0) {
-      char *line = lines + used;
-      used += (size_t)snprintf(line, size - used, "%s=%s\n", attributes[k].name, attributes[k].text);
-      for (char *c = line; c < lines + used - 1; c++)
-        if (*c == '\n') *c = ' ';
-    }
-  return lines;
-}
+enum { SUM_SIZE = 17 }; /* a checksum as text: 16 digits and a NUL */
 
 static void name_channels(const struct channel_list *channels, struct image *image)
 {
@@ -67,8 +36,7 @@ static void name_channels(const struct channel_list *channels, struct image *ima
   }
 }
 
-enum status piece_create(const struct render_options *options, size_t number, size_t count,
-                         const struct image_attribute *attributes, size_t attribute_count, struct piece *out)
+enum status piece_create(const struct render_options *options, size_t number, size_t count, struct piece *out)
 {
   const struct rectangle *crop = &options->crop;
   struct image *image = &out->image;
@@ -81,8 +49,7 @@ enum status piece_create(const struct render_options *options, size_t number, si
   image->full_width = options->width;
   image->full_height = options->height;
   name_channels(&options->channels, image);
-  image->metadata = metadata_lines(attributes, attribute_count);
-  return image->metadata == NULL ? STATUS_LIMIT : STATUS_OK;
+  return STATUS_OK;
 }
 
 enum status piece_create_like(const struct piece *piece, size_t number, size_t count, struct piece *out)
@@ -92,7 +59,7 @@ enum status piece_create_like(const struct piece *piece, size_t number, size_t c
                                          .height = image->full_height,
                                          .crop = {image->x, image->y, image->width, image->height},
                                          .channels = piece->channels};
-  return piece_create(&options, number, count, NULL, 0, out);
+  return piece_create(&options, number, count, out);
 }
 
 void piece_destroy(struct piece *piece)
@@ -102,183 +69,76 @@ void piece_destroy(struct piece *piece)
   *piece = (struct piece){0};
 }
 
-/* Reads "0-17,19,18:3", the inverse of done_text, in which the numbers ascend, and again those of tiles that are begun.
- * Returns false if it is no such list. */
-static bool read_done(const char *text, size_t length, const struct tile_list *tiles)
+static_assert(TILE_ROWS < 10, "a digit tells how many rows of a tile are done");
+
+/* The text of DONE: a digit for each tile of the list. The caller frees it; NULL if memory is short. */
+static char *done_text(const struct tile_list *tiles)
 {
-  const char *end = text + length;
-  bool begun = false;
-  for (size_t next = 0; text < end;) {
-    size_t first, last, rows = TILE_ROWS;
-    if (!value_digits(&text, end, tiles->count, &first)) return false;
-    last = first;
-    if (value_sign(&text, end, ':')) {
-      if (!value_digits(&text, end, TILE_ROWS - 1, &rows)) return false;
-      if (!begun) begun = true, next = 0;
-    } else if (begun || (value_sign(&text, end, '-') && !value_digits(&text, end, tiles->count, &last))) {
-      return false;
-    }
-    const bool more = value_sign(&text, end, ',');
-    if (first < next || last < first || last >= tiles->count || more != (text < end)) return false;
-    for (size_t k = first; k <= last; k++) {
-      if (atomic_load(&tiles->rows[k]) != 0) return false;
-      atomic_store(&tiles->rows[k], (unsigned char)rows);
-    }
-    next = last + 1;
-  }
-  return true;
+  char *text = malloc(tiles->count + 1);
+  if (text == NULL) return NULL;
+  for (size_t k = 0; k < tiles->count; k++) text[k] = (char)('0' + atomic_load(&tiles->rows[k]));
+  text[tiles->count] = '\0';
+  return text;
 }
 
-/* Returns the status, and writes its reason into the message. */
-static enum status told(enum status status, const char *input, char *message)
+/* Its inverse. Returns false if it is no such text. */
+static bool read_done(const char *text, const struct tile_list *tiles)
 {
-  if (status != STATUS_OK)
-    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", status == STATUS_INPUT ? input : "out of memory");
-  return status;
+  if (strlen(text) != tiles->count) return false;
+  for (size_t k = 0; k < tiles->count; k++) {
+    if (text[k] < '0' || text[k] > '0' + TILE_ROWS) return false;
+    atomic_store(&tiles->rows[k], (unsigned char)(text[k] - '0'));
+  }
+  return true;
 }
 
 /* Whether the picture's place is as its metadata say: the checksum does not cover the windows in the file. */
 static bool stands_in_place(const struct image *image)
 {
   char size[48], crop[96];
-  size_t size_length = 0, crop_length = 0;
-  const char *said_size = image_metadata(image, "pscn:size", &size_length);
-  const char *said_crop = image_metadata(image, "pscn:crop", &crop_length);
   snprintf(size, sizeof size, "%zux%zu", image->full_width, image->full_height);
   snprintf(crop, sizeof crop, "%zu,%zu,%zu,%zu", image->x, image->y, image->width, image->height);
-  return size_length == strlen(size) && memcmp(said_size, size, size_length) == 0 && crop_length == strlen(crop) &&
-         memcmp(said_crop, crop, crop_length) == 0;
-}
-
-/* Reads a picture's place and tiles from its metadata. Returns STATUS_INPUT if they are missing or impossible. */
-static enum status read_tiles(struct piece *piece)
-{
-  const struct image *image = &piece->image;
-  const struct rectangle crop = {image->x, image->y, image->width, image->height};
-  size_t length;
-  const char *tile = image_metadata(image, "pscn:tile", &length);
-  if (tile == NULL || !stands_in_place(image) || !piece_number(tile, length, &piece->number, &piece->count))
-    return STATUS_INPUT;
-  const enum status status = tile_list_create(&crop, piece->number, piece->count, &piece->tiles);
-  if (status != STATUS_OK) return status;
-  const char *done = image_metadata(image, "pscn:done", &length); /* empty texts are not stored: none is done */
-  return done == NULL || read_done(done, length, &piece->tiles) ? STATUS_OK : STATUS_INPUT;
-}
-
-/* The same for its channels. */
-static enum status read_channels(struct piece *piece)
-{
-  size_t length, bad_length;
-  const char *channels = image_metadata(&piece->image, "pscn:channels", &length), *bad;
-  if (channels == NULL) return STATUS_INPUT;
-  char *list = strndup(channels, length);
-  if (list == NULL) return STATUS_LIMIT;
-  const bool known = channel_list_parse(list, &piece->channels, &bad, &bad_length);
-  free(list);
-  return known ? STATUS_OK : STATUS_INPUT;
+  return strcmp(image_text(image, "pscn:size"), size) == 0 && strcmp(image_text(image, "pscn:crop"), crop) == 0;
 }
 
 /* FNV-1a (Fowler, Noll, Vo; RFC 9923), also applied to words: no two words give one hash. */
-static const uint64_t HASH_PRIME = UINT64_C(0x100000001b3);
-
-static uint64_t hash_add(uint64_t hash, uint32_t word) { return (hash ^ word) * HASH_PRIME; }
-
-/* Adds `count` words 0. */
-static uint64_t hash_add_zeros(uint64_t hash, size_t count)
-{
-  for (uint64_t factor = HASH_PRIME; count != 0; count /= 2, factor *= factor)
-    if (count % 2 != 0) hash *= factor;
-  return hash;
-}
+static uint64_t hash_add(uint64_t hash, uint32_t word) { return (hash ^ word) * UINT64_C(0x100000001b3); }
 
 /* The upper bits are mixed better. */
 static uint64_t hash_fold(uint64_t hash) { return hash ^ hash >> 32; }
 
-static uint64_t hash_text(const char *text, size_t length)
+static uint64_t hash_text(const char *text)
 {
   uint64_t hash = UINT64_C(0xcbf29ce484222325);
-  for (size_t k = 0; k < length; k++) hash = hash_add(hash, (unsigned char)text[k]);
+  for (; *text != '\0'; text++) hash = hash_add(hash, (unsigned char)*text);
   return hash_fold(hash);
 }
 
-static int by_row(const void *a, const void *b)
+/* Hashes one channel: its name, and its values in what is done of the tiles. */
+static uint64_t hash_channel(const struct image *image, size_t channel, const struct tile_list *tiles)
 {
-  const struct rectangle *p = a, *q = b;
-  return p->y != q->y ? (p->y > q->y) - (p->y < q->y) : (p->x > q->x) - (p->x < q->x);
-}
-
-/* What is done of the tiles, by rows. The caller frees it; NULL if memory is short. */
-static struct rectangle *tiles_by_row(const struct tile_list *tiles, size_t *out_count)
-{
-  struct rectangle *sorted = malloc((tiles->count + 1) * sizeof *sorted);
-  *out_count = 0;
-  if (sorted == NULL) return NULL;
+  uint64_t hash = hash_text(image->channel[channel].name);
   for (size_t k = 0; k < tiles->count; k++) {
-    sorted[*out_count] = tile_top(tiles, k, atomic_load(&tiles->rows[k]));
-    *out_count += sorted[*out_count].height > 0;
-  }
-  qsort(sorted, *out_count, sizeof *sorted, by_row);
-  return sorted;
-}
-
-/* Adds `count` pixels of one channel, from `first` on. */
-static uint64_t hash_add_pixels(uint64_t hash, const struct image *image, size_t channel, size_t first, size_t count)
-{
-  const float *value = image->value + first * image->channel_count + channel;
-  for (size_t k = 0; k < count; k++, value += image->channel_count) {
-    uint32_t bits;
-    memcpy(&bits, value, sizeof bits);
-    hash = hash_add(hash, bits);
-  }
-  return hash;
-}
-
-/* Hashes one channel of the whole picture, by rows, taken as 0 outside the tiles, where it may not have been read. */
-static uint64_t hash_channel(const struct image *image, size_t channel, const struct rectangle *tile, size_t count)
-{
-  uint64_t hash = hash_text(image->channel[channel].name, strlen(image->channel[channel].name));
-  size_t next = 0; /* pixel */
-  for (size_t begin = 0, end = 0; begin < count; begin = end) {
-    while (end < count && tile[end].y == tile[begin].y) end++;
-    for (size_t y = 0; y < TILE_SIZE; y++) {
-      for (size_t k = begin; k < end; k++) {
-        if (y >= tile[k].height) continue;
-        const size_t first = (tile[k].y - image->y + y) * image->width + tile[k].x - image->x;
-        hash = hash_add_pixels(hash_add_zeros(hash, first - next), image, channel, first, tile[k].width);
-        next = first + tile[k].width;
+    const struct rectangle part = tile_top(tiles, k, atomic_load(&tiles->rows[k]));
+    for (size_t y = part.y - image->y; y < part.y - image->y + part.height; y++) {
+      const float *value = image_pixel(image, part.x - image->x, y) + channel;
+      for (size_t x = 0; x < part.width; x++, value += image->channel_count) {
+        uint32_t bits;
+        memcpy(&bits, value, sizeof bits);
+        hash = hash_add(hash, bits);
       }
     }
   }
-  return hash_fold(hash_add_zeros(hash, image->width * image->height - next));
+  return hash_fold(hash);
 }
 
 /* A checksum, as text, of a part's pixels, tiles and number, which shows that a byte has changed. It is independent of
  * the order of the channels, which a file does not keep. */
-static enum status make_sum(const struct image *image, const struct tile_list *tiles, const char *tile,
-                            size_t tile_length, const char *done, size_t done_length, char out[SUM_SIZE])
+static void make_sum(const struct image *image, const struct tile_list *tiles, char out[SUM_SIZE])
 {
-  size_t count;
-  struct rectangle *sorted = tiles_by_row(tiles, &count);
-  if (sorted == NULL) return STATUS_LIMIT;
-  uint64_t sum = hash_text(tile, tile_length) + 2 * hash_text(done, done_length);
-  for (size_t c = 0; c < image->channel_count; c++) sum += hash_channel(image, c, sorted, count);
+  uint64_t sum = hash_text(image_text(image, TILE)) + 2 * hash_text(image_text(image, DONE));
+  for (size_t c = 0; c < image->channel_count; c++) sum += hash_channel(image, c, tiles);
   snprintf(out, SUM_SIZE, "%016" PRIx64, sum);
-  free(sorted);
-  return STATUS_OK;
-}
-
-/* Whether the pixels are those that were written. */
-static enum status check_sum(const struct piece *piece, char *message)
-{
-  const struct image *image = &piece->image;
-  size_t tile_length = 0, done_length = 0, length = 0;
-  const char *tile = image_metadata(image, "pscn:tile", &tile_length);
-  const char *done = image_metadata(image, "pscn:done", &done_length); /* empty texts are not stored */
-  const char *said = image_metadata(image, "pscn:sum", &length);
-  char sum[SUM_SIZE];
-  enum status status = make_sum(image, &piece->tiles, tile, tile_length, done == NULL ? "" : done, done_length, sum);
-  if (status == STATUS_OK && !(length == SUM_SIZE - 1 && memcmp(said, sum, length) == 0)) status = STATUS_INPUT;
-  return told(status, "it is damaged: its checksum is wrong", message);
 }
 
 /* The reading of a part: all of its metadata, and with `pixels` those of its tiles. */
@@ -287,26 +147,39 @@ struct reading {
   bool pixels;
 };
 
+/* Reads a piece's place, tiles and channels from its metadata: STATUS_INPUT if they are missing or impossible. */
 static enum status wanted_areas(void *context, const struct image *image, const struct rectangle **out_area,
                                 size_t *out_count, char *message)
 {
   const struct reading *reading = context;
   struct piece *piece = reading->piece;
-  (void)image; /* the piece's own */
-  enum status status = read_tiles(piece);
-  if (status == STATUS_OK) status = read_channels(piece);
+  const struct rectangle crop = {image->x, image->y, image->width, image->height};
+  size_t bad_length;
+  const char *bad;
+  enum status status = STATUS_INPUT;
+  if (stands_in_place(image) && value_range(image_text(image, TILE), '/', PIECE_MOST, &piece->number, &piece->count) &&
+      channel_list_parse(image_text(image, "pscn:channels"), &piece->channels, &bad, &bad_length))
+    status = tile_list_create(&crop, piece->number, piece->count, &piece->tiles);
+  if (status == STATUS_OK && !read_done(image_text(image, DONE), &piece->tiles)) status = STATUS_INPUT;
+  if (status != STATUS_OK)
+    snprintf(message, IMAGE_MESSAGE_SIZE, status == STATUS_INPUT ? "it is not a piece of a picture" : "out of memory");
   *out_area = piece->tiles.tile;
   *out_count = reading->pixels ? piece->tiles.count : 0;
-  return told(status, "it is not a piece of a picture", message);
+  return status;
 }
 
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message)
 {
+  char sum[SUM_SIZE];
   *out = (struct piece){0};
   struct reading reading = {out, pixels};
   const struct image_wanted wanted = {wanted_areas, &reading};
   enum status status = image_read_areas(path, &wanted, &out->image, message);
-  if (status == STATUS_OK && pixels) status = check_sum(out, message);
+  if (status == STATUS_OK && pixels) make_sum(&out->image, &out->tiles, sum);
+  if (status == STATUS_OK && pixels && strcmp(image_text(&out->image, SUM), sum) != 0) {
+    snprintf(message, IMAGE_MESSAGE_SIZE, "it is damaged: its checksum is wrong");
+    status = STATUS_INPUT;
+  }
   if (status != STATUS_OK) piece_destroy(out);
   return status;
 }
@@ -314,13 +187,10 @@ enum status piece_read(const char *path, bool pixels, struct piece *out, char *m
 int piece_compare(const struct image *part, const struct image *picture, char *out, size_t size)
 {
   for (size_t k = 0; k < sizeof COMMON / sizeof *COMMON; k++) {
-    size_t here = 0, there = 0;
-    const char *a = image_metadata(part, COMMON[k].name, &here), *b = image_metadata(picture, COMMON[k].name, &there);
-    if (a == NULL) a = "", here = 0; /* empty texts are not stored */
-    if (b == NULL) b = "", there = 0;
-    const int order = here == there ? memcmp(a, b, here) : here < there ? -1 : 1;
+    const char *here = image_text(part, COMMON[k].name), *there = image_text(picture, COMMON[k].name);
+    const int order = strcmp(here, there);
     if (order == 0) continue;
-    snprintf(out, size, "its %s: '%.*s', not '%.*s'", COMMON[k].what, (int)here, a, (int)there, b);
+    snprintf(out, size, "its %s: '%s', not '%s'", COMMON[k].what, here, there);
     return order;
   }
   return 0;
@@ -351,56 +221,43 @@ bool piece_copy(const struct piece *from, struct image *to)
   return true;
 }
 
-static bool is_done(const void *tiles, size_t number) { return tile_is_done(tiles, number); }
-
-/* The tiles that a part has, as indices in its list, and then those of which it has the first rows: "0-17,19,18:3". The
- * caller frees it; NULL if memory is short. */
-static char *done_text(const struct tile_list *tiles)
+const char *piece_next_text(const struct image *part, const char *name)
 {
-  struct text_buffer text = {0};
-  text_buffer_add_runs(&text, 0, tiles->count, is_done, tiles);
-  for (size_t k = 0; k < tiles->count; k++) {
-    const unsigned rows = atomic_load(&tiles->rows[k]);
-    if (rows > 0 && rows < TILE_ROWS) text_buffer_format(&text, "%s%zu:%u", text.length > 0 ? "," : "", k, rows);
-  }
-  return text_buffer_take(&text);
+  do name = image_next_text(part, name);
+  while (name != NULL && (strcmp(name, TILE) == 0 || strcmp(name, DONE) == 0 || strcmp(name, SUM) == 0));
+  return name;
 }
 
-/* Copies what is done, and nothing else, because the rest is still being written. */
+/* Copies what is done, and nothing else, because the rest is still being written, and describes it. */
 static enum status copy_done(const struct piece *piece, struct piece *out)
 {
+  char sum[SUM_SIZE];
   const enum status status = piece_create_like(piece, piece->number, piece->count, out);
   if (status != STATUS_OK) return status;
   for (size_t k = 0; k < out->tiles.count; k++) atomic_store(&out->tiles.rows[k], atomic_load(&piece->tiles.rows[k]));
   const struct piece done = {.image = piece->image, .tiles = out->tiles};
   (void)piece_copy(&done, &out->image); /* it has the channels */
-  return STATUS_OK;
+  char *text = done_text(&out->tiles);
+  bool enough = text != NULL;
+  for (const char *name = NULL; enough && (name = image_next_text(&piece->image, name)) != NULL;)
+    enough = image_add_text(&out->image, name, "%s", name + strlen(name) + 1);
+  enough = enough && image_add_text(&out->image, TILE, "%zu/%zu", piece->number, piece->count) &&
+           image_add_text(&out->image, DONE, "%s", text);
+  make_sum(&out->image, &out->tiles, sum);
+  enough = enough && image_add_text(&out->image, SUM, "%s", sum);
+  free(text);
+  return enough ? STATUS_OK : STATUS_LIMIT;
 }
 
-enum status piece_encode(const struct piece *piece, const struct image_attribute *attributes, size_t attribute_count,
-                         unsigned char **out_bytes, size_t *out_size, char *message)
+enum status piece_encode(const struct piece *piece, unsigned char **out_bytes, size_t *out_size, char *message)
 {
-  enum { MOST = 32 };
-  struct image_attribute all[MOST];
+  const struct image_encoding encoding = {.format = IMAGE_EXR, .bits = 32, .tile = TILE_SIZE};
   struct piece copy;
-  char tile[48], sum[SUM_SIZE], *done = NULL;
-  assert(attribute_count + 3 <= MOST);
   *out_bytes = NULL;
   *out_size = 0;
   enum status status = copy_done(piece, &copy);
-  if (status == STATUS_OK) done = done_text(&copy.tiles);
   snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
-  snprintf(tile, sizeof tile, "%zu/%zu", piece->number, piece->count);
-  if (done == NULL) status = STATUS_LIMIT;
-  else status = make_sum(&copy.image, &copy.tiles, tile, strlen(tile), done, strlen(done), sum);
-  for (size_t k = 0; k < attribute_count; k++) all[k] = attributes[k];
-  all[attribute_count] = (struct image_attribute){"pscn:tile", tile};
-  all[attribute_count + 1] = (struct image_attribute){"pscn:done", done};
-  all[attribute_count + 2] = (struct image_attribute){"pscn:sum", sum};
-  const struct image_encoding encoding = {
-    .format = IMAGE_EXR, .bits = 32, .tile = TILE_SIZE, .attributes = all, .attribute_count = attribute_count + 3};
   if (status == STATUS_OK) status = image_encode(&copy.image, &encoding, out_bytes, out_size, message);
-  free(done);
   piece_destroy(&copy);
   return status;
 }

@@ -24,15 +24,13 @@ struct piece {
   struct tile_list tiles; /* those of this piece; rows: what the image has of them */
 };
 
-/* Reads "K/N", 1 <= K <= N. */
-bool piece_number(const char *text, size_t length, size_t *out_number, size_t *out_count);
+enum { PIECE_MOST = 1000000 }; /* pieces of a picture */
 
-/* Makes a black picture of the crop with its channels, in which no tile is done. The attributes whose names begin with
- * "pscn:" become the metadata of its image. The caller destroys it, even on failure, and may destroy a zero one. */
+/* Makes a black picture of the crop with its channels and without metadata, in which no tile is done. The caller
+ * destroys it, even on failure, and may destroy a zero one. */
 enum status piece_create(const struct render_options *options, size_t number, size_t count,
-                         const struct image_attribute *attributes, size_t attribute_count,
                          struct piece *out) STATUS_MUST_CHECK;
-/* The same for the picture that `piece` belongs to, without metadata. */
+/* The same for the picture that `piece` belongs to. */
 enum status piece_create_like(const struct piece *piece, size_t number, size_t count,
                               struct piece *out) STATUS_MUST_CHECK;
 void piece_destroy(struct piece *piece);
@@ -50,9 +48,12 @@ int piece_compare(const struct image *part, const struct image *picture, char *o
  * one is missing. */
 bool piece_copy(const struct piece *from, struct image *to);
 
-/* Encodes a part: what is done of the piece, described by the attributes. The caller frees the bytes. May be called
+/* image_next_text of the lines that describe the whole picture. */
+const char *piece_next_text(const struct image *part, const char *name);
+
+/* Encodes a part: what is done of the piece, with the metadata of its image. The caller frees the bytes. May be called
  * while the rest is being rendered: it has what was done when it began. */
-enum status piece_encode(const struct piece *piece, const struct image_attribute *attributes, size_t attribute_count,
-                         unsigned char **out_bytes, size_t *out_size, char *message) STATUS_MUST_CHECK;
+enum status piece_encode(const struct piece *piece, unsigned char **out_bytes, size_t *out_size,
+                         char *message) STATUS_MUST_CHECK;
 
 #endif

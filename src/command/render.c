@@ -74,10 +74,7 @@ static enum status take_channels(const struct command *command, struct request *
 static enum status take_frames(const struct command *command, struct scene_request *scene, const char *text)
 {
   size_t first, last;
-  char number[16] = "";
-  const char *line = strchr(text, '-');
-  if (line != NULL && (size_t)(line - text) < sizeof number) memcpy(number, text, (size_t)(line - text));
-  if (!value_integer(number, 1, MAX_FRAME, &first) || !value_integer(line + 1, first, MAX_FRAME, &last))
+  if (!value_range(text, '-', MAX_FRAME, &first, &last))
     return command_usage(command, "'%s' is not a range of frames A-B, such as 1-24", text);
   scene->first_frame = (int)first;
   scene->last_frame = (int)last;
@@ -99,7 +96,7 @@ static enum status take_option(const struct command *command, void *context, int
     break;
   case OPTION_FRAMES: return take_frames(command, &request->scene, argument);
   case OPTION_TILE:
-    if (!piece_number(argument, strlen(argument), &request->picture.piece, &request->picture.pieces))
+    if (!value_range(argument, '/', PIECE_MOST, &request->picture.piece, &request->picture.pieces))
       return command_usage(command, "'%s' is not a piece K/N, such as 3/16", argument);
     break;
   default: return scene_request_take(command, &request->scene, val, argument);

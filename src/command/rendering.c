@@ -52,13 +52,13 @@ struct rendering {
 /* Writes what is done into its file. Returns whether that worked; prints the error if not. */
 static bool keep(struct rendering *rendering)
 {
-  struct report_metadata metadata;
-  char message[IMAGE_MESSAGE_SIZE];
-  unsigned char *bytes;
+  char message[IMAGE_MESSAGE_SIZE] = "out of memory";
+  unsigned char *bytes = NULL;
   size_t size;
   int reason = 0;
-  report_metadata_fill(rendering->report, &metadata);
-  enum status status = piece_encode(&rendering->piece, metadata.attribute, metadata.count, &bytes, &size, message);
+  enum status status = STATUS_LIMIT;
+  if (report_describe(rendering->report, &rendering->piece.image))
+    status = piece_encode(&rendering->piece, &bytes, &size, message);
   if (status == STATUS_OK) {
     const struct atomic_file file = {rendering->request->part, bytes, size};
     status = atomic_file_put(&file, &reason);
@@ -131,20 +131,13 @@ static bool is_part(const struct piece *piece, const struct piece *part, char *m
   return piece_compare(&part->image, &piece->image, message, size) == 0;
 }
 
-/* How many pixels of this picture an earlier run has left; 0 if they are of another picture or unusable. To know that,
- * all of the file is read: a damaged file must not be spared at the cost of what is done now. */
-static size_t pixels_left(const struct rendering *rendering, const char *path, bool *out_useless)
+/* Whether a part is of this scene, the one with this text or this name. If not, the message says so. */
+static bool is_of_scene(const struct report *report, const struct image *part, char *message, size_t size)
 {
-  struct piece part;
-  char message[IMAGE_MESSAGE_SIZE];
-  enum status status = piece_read(path, true, &part, message);
-  if (status == STATUS_LIMIT) status = piece_read(path, false, &part, message); /* spared, because it may be whole */
-  *out_useless = status != STATUS_OK;
-  if (*out_useless) return 0;
-  const bool ours = is_part(&rendering->piece, &part, message, sizeof message);
-  const size_t pixels = ours ? tile_list_pixels(&part.tiles, true) : 0;
-  piece_destroy(&part);
-  return pixels;
+  const char *path = image_text(part, "pscn:scene");
+  snprintf(message, size, "it is of the scene '%s'", path);
+  return (strcmp(path, report->scene_path) == 0 && !output_is_standard(path)) ||
+         strcmp(image_text(part, "pscn:text"), report->scene->text_hash) == 0;
 }
 
 /* Takes the tiles of a part. Returns false if it is of another picture, or lacks a channel. */
@@ -158,67 +151,63 @@ static bool take_part(struct rendering *rendering, const struct piece *part, cha
   return true;
 }
 
-/* Refuses a file of the part's name that is no part of this scene, which is the one with this text or this name: what is
- * done would replace it, and the picture remove it. */
-static enum status check_old(const struct rendering *rendering, const char *path)
+/* Continues from a part. `status` is that of its reading. */
+static enum status continue_from(struct rendering *rendering, const struct piece *part, enum status status,
+                                 char *message, size_t size)
 {
-  struct piece part;
-  char message[IMAGE_MESSAGE_SIZE];
-  size_t length = 0, hash_length = 0;
-  const char *scene = rendering->report->scene_path, *hash = rendering->report->scene->text_hash;
-  enum status status = piece_read(path, false, &part, message);
-  if (status == STATUS_OK) {
-    const char *name = image_metadata(&part.image, "pscn:scene", &length);
-    const char *text = image_metadata(&part.image, "pscn:text", &hash_length);
-    const bool same_name = length == strlen(scene) && memcmp(name, scene, length) == 0 && !output_is_standard(scene);
-    const bool same_text = hash_length == strlen(hash) && memcmp(text, hash, hash_length) == 0;
-    if (!same_name && !same_text) {
-      snprintf(message, sizeof message, "it is of the scene '%.*s'", (int)length, name == NULL ? "" : name);
-      status = STATUS_INPUT;
-    }
-    piece_destroy(&part);
+  const char *path = rendering->request->part;
+  if (status != STATUS_OK) {
+    command_error(rendering->command, "cannot continue from '%s'%s: %s", path,
+                  status == STATUS_LIMIT ? "" : " (without --resume rendering starts anew)", message);
+    return status;
   }
-  if (status == STATUS_OK) return STATUS_OK;
-  command_error(rendering->command,
-                "'%s', in which the finished part would be kept, is not a part of this scene: %s; remove it, or choose "
-                "another name for the picture",
-                path, message);
-  return status == STATUS_LIMIT ? status : STATUS_FILE;
+  rendering->has_part = take_part(rendering, part, message, size);
+  if (rendering->has_part) return STATUS_OK;
+  command_error(rendering->command, "'%s' belongs to another picture; %s. Without --resume rendering starts anew", path,
+                message);
+  return STATUS_INPUT;
 }
 
-/* Continues from what an earlier run has left, or warns that it is there. */
+/* Continues from what an earlier run has left, or warns that it is there. Refuses a file of the part's name that is no
+ * part of this scene: what is done would replace it, and the picture remove it. All of the file is read to know whether
+ * it is damaged, and need not be spared at the cost of what is done now; if memory is too short for that, it may be
+ * whole. */
 static enum status resume(struct rendering *rendering)
 {
   const struct command *command = rendering->command;
   const char *path = rendering->request->part;
-  struct piece part;
+  struct piece head, part;
   char message[IMAGE_MESSAGE_SIZE];
   if (path == NULL || access(path, F_OK) != 0) return STATUS_OK;
-  enum status status = check_old(rendering, path);
-  if (status != STATUS_OK) return status;
-  if (!rendering->request->resume) {
-    bool useless;
-    rendering->left = pixels_left(rendering, path, &useless);
+  enum status status = piece_read(path, false, &head, message);
+  if (status == STATUS_OK && !is_of_scene(rendering->report, &head.image, message, sizeof message))
+    status = STATUS_INPUT;
+  if (status != STATUS_OK) {
+    command_error(command,
+                  "'%s', in which the finished part would be kept, is not a part of this scene: %s; remove it, or "
+                  "choose another name for the picture",
+                  path, message);
+    piece_destroy(&head);
+    return status == STATUS_LIMIT ? status : STATUS_FILE;
+  }
+  status = piece_read(path, true, &part, message);
+  if (rendering->request->resume) {
+    status = continue_from(rendering, &part, status, message, sizeof message);
+  } else {
+    const bool useless = status != STATUS_OK && status != STATUS_LIMIT;
+    if (!useless && is_part(&rendering->piece, &head, message, sizeof message))
+      rendering->left = tile_list_pixels(&head.tiles, true);
     rendering->has_old = true;
     if (!rendering->request->scene->quiet)
       command_warning(command, "'%s' is left by an earlier run%s", path,
                       rendering->left > 0 ? "; --resume continues from there"
                       : useless           ? ", cannot be continued, and is replaced"
                                           : ", belongs to another picture, and is replaced");
-    return STATUS_OK;
+    status = STATUS_OK;
   }
-  status = piece_read(path, true, &part, message);
-  if (status != STATUS_OK) {
-    command_error(command, "cannot continue from '%s'%s: %s", path,
-                  status == STATUS_LIMIT ? "" : " (without --resume rendering starts anew)", message);
-    return status;
-  }
-  rendering->has_part = take_part(rendering, &part, message, sizeof message);
-  if (!rendering->has_part)
-    command_error(command, "'%s' belongs to another picture; %s. Without --resume rendering starts anew", path,
-                  message);
+  piece_destroy(&head);
   piece_destroy(&part);
-  return rendering->has_part ? STATUS_OK : STATUS_INPUT;
+  return status;
 }
 
 /* Creates the picture, and fills in what an earlier run has done. */
@@ -226,11 +215,10 @@ static enum status begin(struct rendering *rendering)
 {
   const struct rendering_request *request = rendering->request;
   const size_t piece = request->pieces == 0 ? 1 : request->piece, pieces = request->pieces == 0 ? 1 : request->pieces;
-  struct report_metadata metadata;
-  report_metadata_fill(rendering->report, &metadata);
-  const enum status status = piece_create(&request->options, piece, pieces, metadata.attribute, metadata.count,
-                                          &rendering->piece);
-  return status == STATUS_OK ? resume(rendering) : command_out_of_memory(rendering->command);
+  const enum status status = piece_create(&request->options, piece, pieces, &rendering->piece);
+  if (status != STATUS_OK || !report_describe(rendering->report, &rendering->piece.image))
+    return command_out_of_memory(rendering->command);
+  return resume(rendering);
 }
 
 /* ---- the picture ---- */
@@ -324,18 +312,13 @@ static bool go_on_writing(void *context, double part)
 static enum status encode(struct rendering *rendering, unsigned char **out_bytes, size_t *out_size, char *message)
 {
   const struct rendering_request *request = rendering->request;
-  struct report_metadata metadata;
   if (atomic_load(&interrupt_signal) != 0) return STATUS_INTERRUPTED;
-  report_metadata_fill(rendering->report, &metadata);
-  if (request->pieces != 0)
-    return piece_encode(&rendering->piece, metadata.attribute, metadata.count, out_bytes, out_size, message);
+  snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
+  if (!report_describe(rendering->report, &rendering->piece.image)) return STATUS_LIMIT;
+  if (request->pieces != 0) return piece_encode(&rendering->piece, out_bytes, out_size, message);
   rendering->progress = progress_start();
-  const struct image_encoding encoding = {.format = request->format,
-                                          .bits = (int)request->bits,
-                                          .attributes = metadata.attribute,
-                                          .attribute_count = metadata.count,
-                                          .progress = go_on_writing,
-                                          .context = rendering};
+  const struct image_encoding encoding = {
+    .format = request->format, .bits = (int)request->bits, .progress = go_on_writing, .context = rendering};
   const enum status status = image_encode(&rendering->piece.image, &encoding, out_bytes, out_size, message);
   progress_end(&rendering->progress);
   return status;

@@ -1,7 +1,6 @@
 /* A run's report. See report.h. */
 #include "command/report.h"
 
-#include <assert.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,44 +116,33 @@ enum status report_write(const struct command *command, json_t *statistics, cons
   return status;
 }
 
-static void add(struct report_metadata *metadata, const char *name, const char *text)
-{
-  assert(metadata->count < sizeof metadata->attribute / sizeof *metadata->attribute);
-  metadata->attribute[metadata->count++] = (struct image_attribute){name, text};
-}
-
-void report_date(char out[REPORT_DATE_SIZE])
+bool report_sign(struct image *picture)
 {
   const time_t now = time(NULL);
+  char date[32] = "";
   struct tm calendar;
-  if (gmtime_r(&now, &calendar) == NULL || strftime(out, REPORT_DATE_SIZE, "%Y:%m:%d %H:%M:%S", &calendar) == 0)
-    out[0] = '\0';
+  if (gmtime_r(&now, &calendar) != NULL) (void)strftime(date, sizeof date, "%Y:%m:%d %H:%M:%S", &calendar);
+  return image_add_text(picture, "Software", "pscn " PSCN_VERSION) && image_add_text(picture, "DateTime", "%s", date);
 }
 
-void report_metadata_fill(const struct report *report, struct report_metadata *out)
+bool report_describe(const struct report *report, struct image *picture)
 {
-  const struct method *solver = &report->scene->solvers[0];
-  out->count = 0;
-  snprintf(out->size, sizeof out->size, "%zux%zu", report->width, report->height);
-  snprintf(out->crop, sizeof out->crop, "%zu,%zu,%zu,%zu", report->crop.x, report->crop.y, report->crop.width,
-           report->crop.height);
-  snprintf(out->samples, sizeof out->samples, "%zu", report->samples);
-  snprintf(out->seconds, sizeof out->seconds, "%.3f", report->render.wall);
-  number_write(solver->roots.tolerance, out->tolerance);
-  method_text(solver, out->solver, sizeof out->solver);
-  report_date(out->date);
-  add(out, "Software", "pscn " PSCN_VERSION);
-  add(out, "DateTime", out->date);
-  add(out, "pscn:version", PSCN_VERSION);
-  add(out, "pscn:scene", report->scene_path);
-  add(out, "pscn:solver", out->solver);
-  add(out, "pscn:tolerance", out->tolerance);
-  add(out, "pscn:size", out->size);
-  add(out, "pscn:crop", out->crop);
-  add(out, "pscn:samples", out->samples);
-  add(out, "pscn:channels", report->channels);
-  add(out, "pscn:options", report->options);
-  add(out, "pscn:text", report->scene->text_hash);
-  add(out, "pscn:arithmetic", intersector_arithmetic());
-  add(out, "pscn:render_seconds", out->seconds);
+  const struct method *method = &report->scene->solvers[0];
+  const struct rectangle *crop = &report->crop;
+  char solver[METHOD_TEXT_SIZE], tolerance[NUMBER_TEXT_SIZE];
+  method_text(method, solver, sizeof solver);
+  number_write(method->roots.tolerance, tolerance);
+  picture->texts_size = 0;
+  return report_sign(picture) && image_add_text(picture, "pscn:version", PSCN_VERSION) &&
+         image_add_text(picture, "pscn:scene", "%s", report->scene_path) &&
+         image_add_text(picture, "pscn:solver", "%s", solver) &&
+         image_add_text(picture, "pscn:tolerance", "%s", tolerance) &&
+         image_add_text(picture, "pscn:size", "%zux%zu", report->width, report->height) &&
+         image_add_text(picture, "pscn:crop", "%zu,%zu,%zu,%zu", crop->x, crop->y, crop->width, crop->height) &&
+         image_add_text(picture, "pscn:samples", "%zu", report->samples) &&
+         image_add_text(picture, "pscn:channels", "%s", report->channels) &&
+         image_add_text(picture, "pscn:options", "%s", report->options) &&
+         image_add_text(picture, "pscn:text", "%s", report->scene->text_hash) &&
+         image_add_text(picture, "pscn:arithmetic", "%s", intersector_arithmetic()) &&
+         image_add_text(picture, "pscn:render_seconds", "%.3f", report->render.wall);
 }

@@ -37,17 +37,10 @@ json_t *report_statistics(const struct report *report);
 enum status report_text(const struct command *command, json_t *statistics, char **out_text) STATUS_MUST_CHECK;
 enum status report_write(const struct command *command, json_t *statistics, const char *path) STATUS_MUST_CHECK;
 
-/* The date and time, in the form of picture metadata. */
-enum { REPORT_DATE_SIZE = 32 };
-void report_date(char out[REPORT_DATE_SIZE]);
+/* Adds the two lines of metadata that say when a picture was written, and by what. Returns false if memory is short. */
+bool report_sign(struct image *picture) STATUS_MUST_CHECK;
 
-/* Fills in the picture's metadata; texts are in *out or borrowed from the report. */
-struct report_metadata {
-  struct image_attribute attribute[16];
-  size_t count;
-  char size[64], crop[96], samples[32], tolerance[32], seconds[32], date[REPORT_DATE_SIZE];
-  char solver[METHOD_TEXT_SIZE];
-};
-void report_metadata_fill(const struct report *report, struct report_metadata *out);
+/* Replaces the picture's metadata. Returns false if memory is short. */
+bool report_describe(const struct report *report, struct image *picture) STATUS_MUST_CHECK;
 
 #endif

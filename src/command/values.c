@@ -7,11 +7,12 @@
 
 #include "base/number.h"
 
-bool value_digits(const char **text, const char *end, size_t maximum, size_t *out)
+/* Reads decimal digits at *text, whose value is at most `maximum`, and advances it. */
+static bool read_digits(const char **text, size_t maximum, size_t *out)
 {
   size_t value = 0;
   const char *from = *text;
-  for (; from < end && *from >= '0' && *from <= '9'; from++) {
+  for (; *from >= '0' && *from <= '9'; from++) {
     const size_t digit = (size_t)(*from - '0');
     if (digit > maximum || value > (maximum - digit) / 10) return false;
     value = 10 * value + digit;
@@ -22,18 +23,10 @@ bool value_digits(const char **text, const char *end, size_t maximum, size_t *ou
   return true;
 }
 
-bool value_sign(const char **text, const char *end, char sign)
-{
-  if (*text == end || **text != sign) return false;
-  ++*text;
-  return true;
-}
-
 bool value_integer(const char *text, size_t minimum, size_t maximum, size_t *out)
 {
-  const char *const end = text + strlen(text);
   size_t value;
-  if (!value_digits(&text, end, maximum, &value) || text != end || value < minimum) return false;
+  if (!read_digits(&text, maximum, &value) || *text != '\0' || value < minimum) return false;
   *out = value;
   return true;
 }
@@ -63,7 +56,7 @@ bool value_bytes(const char *text, size_t *out)
 {
   static const char units[] = "KMGT";
   size_t value;
-  if (!value_digits(&text, text + strlen(text), SIZE_MAX, &value) || value == 0) return false;
+  if (!read_digits(&text, SIZE_MAX, &value) || value == 0) return false;
   const char *unit = *text != '\0' ? strchr(units, *text) : NULL;
   const int shift = unit != NULL ? 10 * (int)(unit - units + 1) : 0;
   if (*(text + (unit != NULL)) != '\0' || value > SIZE_MAX >> shift) return false;
@@ -73,25 +66,32 @@ bool value_bytes(const char *text, size_t *out)
 
 bool value_size(const char *text, size_t maximum, size_t *out_width, size_t *out_height)
 {
-  const char *const end = text + strlen(text);
   size_t width, height;
-  if (!value_digits(&text, end, maximum, &width) || !(value_sign(&text, end, 'x') || value_sign(&text, end, 'X')) ||
-      !value_digits(&text, end, maximum, &height) || text != end || width == 0 || height == 0)
-    return false;
+  if (!read_digits(&text, maximum, &width) || (*text != 'x' && *text != 'X')) return false;
+  if (!value_integer(text + 1, 1, maximum, &height) || width == 0) return false;
   *out_width = width;
   *out_height = height;
   return true;
 }
 
+bool value_range(const char *text, char sign, size_t maximum, size_t *out_first, size_t *out_last)
+{
+  size_t first, last;
+  if (!read_digits(&text, maximum, &first) || *text != sign) return false;
+  if (first == 0 || !value_integer(text + 1, first, maximum, &last)) return false;
+  *out_first = first;
+  *out_last = last;
+  return true;
+}
+
 bool value_rectangle(const char *text, struct rectangle *out)
 {
-  const char *const end = text + strlen(text);
   struct rectangle r;
   size_t *const part[4] = {&r.x, &r.y, &r.width, &r.height};
   const size_t maximum = (size_t)-1 / 2; /* a sum of two of them does not overflow */
   for (int k = 0; k < 4; k++)
-    if ((k > 0 && !value_sign(&text, end, ',')) || !value_digits(&text, end, maximum, part[k])) return false;
-  if (text != end || r.width == 0 || r.height == 0) return false;
+    if ((k > 0 && *text++ != ',') || !read_digits(&text, maximum, part[k])) return false;
+  if (*text != '\0' || r.width == 0 || r.height == 0) return false;
   *out = r;
   return true;
 }

@@ -10,11 +10,6 @@
 
 #include "render/tile.h"
 
-/* Reads decimal digits at *text, before `end`, whose value is at most `maximum`; and one character. Both advance
- * *text. */
-bool value_digits(const char **text, const char *end, size_t maximum, size_t *out);
-bool value_sign(const char **text, const char *end, char sign);
-
 /* Decimal digits, minimum to maximum. */
 bool value_integer(const char *text, size_t minimum, size_t maximum, size_t *out);
 
@@ -29,5 +24,8 @@ bool value_size(const char *text, size_t maximum, size_t *out_width, size_t *out
 
 /* "X,Y,W,H", W and H at least 1. */
 bool value_rectangle(const char *text, struct rectangle *out);
+
+/* "3/16" or "1-24", with that sign between: the first at least 1, the last not less and at most maximum. */
+bool value_range(const char *text, char sign, size_t maximum, size_t *out_first, size_t *out_last);
 
 #endif

@@ -1,7 +1,9 @@
 /* A picture in memory. */
 #include "image/image.h"
 
+#include <stdarg.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -36,7 +38,7 @@ void image_destroy(struct image *image)
 {
   free(image->channel);
   free(image->value);
-  free(image->metadata);
+  free(image->texts);
   *image = (struct image){0};
 }
 
@@ -47,13 +49,36 @@ size_t image_find_channel(const struct image *image, const char *name)
   return index;
 }
 
-const char *image_metadata(const struct image *image, const char *name, size_t *out_length)
+bool image_add_text(struct image *image, const char *name, const char *format, ...)
 {
-  const size_t length = strlen(name);
-  for (const char *line = image->metadata; line != NULL && *line != '\0'; line += strcspn(line, "\n") + 1) {
-    if (strncmp(line, name, length) != 0 || line[length] != '=') continue;
-    *out_length = strcspn(line + length + 1, "\n");
-    return line + length + 1;
+  va_list arguments, again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  const size_t name_size = strlen(name) + 1, text_size = (size_t)vsnprintf(NULL, 0, format, arguments) + 1;
+  char *texts = realloc(image->texts, image->texts_size + name_size + text_size);
+  if (texts != NULL) {
+    memcpy(texts + image->texts_size, name, name_size);
+    char *text = texts + image->texts_size + name_size;
+    vsnprintf(text, text_size, format, again);
+    while ((text = strchr(text, '\n')) != NULL) *text = ' ';
+    image->texts = texts;
+    image->texts_size += name_size + text_size;
   }
-  return NULL;
+  va_end(again);
+  va_end(arguments);
+  return texts != NULL;
+}
+
+const char *image_next_text(const struct image *image, const char *name)
+{
+  const char *next = image->texts;
+  if (name != NULL) next = name + strlen(name) + 1, next += strlen(next) + 1;
+  return next == NULL || next == image->texts + image->texts_size ? NULL : next;
+}
+
+const char *image_text(const struct image *image, const char *name)
+{
+  const char *line = NULL;
+  while ((line = image_next_text(image, line)) != NULL && strcmp(line, name) != 0) continue;
+  return line == NULL ? "" : line + strlen(line) + 1;
 }

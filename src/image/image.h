@@ -26,9 +26,8 @@ struct image {
   size_t x, y, full_width, full_height; /* its place in a larger picture; full 0 x 0: it is the whole */
   struct image_channel *channel;        /* channel_count of them */
   float *value;
-  /* Of a picture that was read: its texts named "pscn:...", each as a line "NAME=TEXT", with line ends in the text made
-   * blanks. */
-  char *metadata;
+  char *texts; /* metadata: NAME, NUL, TEXT, NUL, again and again. Of a picture that was read, those named "pscn:..." */
+  size_t texts_size;
 };
 
 /* Makes a black picture with unnamed channels, owned by the caller. Returns STATUS_LIMIT if memory is short or there
@@ -46,8 +45,16 @@ void image_destroy(struct image *image);
 /* The index of the channel of that name, or channel_count if there is none. */
 size_t image_find_channel(const struct image *image, const char *name);
 
-/* The text of that name in the metadata, without its line end; NULL if there is none. */
-const char *image_metadata(const struct image *image, const char *name, size_t *out_length);
+/* Adds a line of metadata, formatted as by printf; line ends in it become blanks. A name with a colon ("pscn:solver")
+ * is a group of its own. Returns false if memory is short. */
+bool image_add_text(struct image *image, const char *name, const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* The text of that name; "" if there is none, because files do not keep empty texts. */
+const char *image_text(const struct image *image, const char *name);
+
+/* The name of the next line of metadata, of the first for NULL, and NULL after the last. Its text follows its NUL. */
+const char *image_next_text(const struct image *image, const char *name);
 
 /* The channel_count values of one pixel. */
 static inline float *image_pixel(const struct image *image, size_t x, size_t y)

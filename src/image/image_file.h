@@ -27,11 +27,6 @@ bool image_format_of(const char *path, enum image_format *out);
 bool image_format_has_bits(enum image_format format, int bits);
 int image_format_default_bits(enum image_format format);
 
-/* One line of metadata. A name with a colon ("pscn:solver") is a group of its own. */
-struct image_attribute {
-  const char *name, *text;
-};
-
 struct image_encoding {
   enum image_format format;
   int bits; /* of all channels other than data, which always have 32 in an EXR */
@@ -39,8 +34,6 @@ struct image_encoding {
    * image_read_areas; 0: in rows. */
   int tile;
   bool encoded; /* the values are display codes already: PNG stores them without the sRGB curve */
-  const struct image_attribute *attributes;
-  size_t attribute_count;
   /* Called now and then with `context` and the part that is encoded; may be NULL. If it returns false, encoding ends
    * with STATUS_INTERRUPTED. */
   bool (*progress)(void *context, double part);

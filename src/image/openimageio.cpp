@@ -55,8 +55,8 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
   }
   if (!mixed) spec.channelformats.clear();
   spec.attribute("oiio:ColorSpace", "Linear");
-  for (std::size_t k = 0; k < encoding.attribute_count; k++)
-    spec.attribute(encoding.attributes[k].name, encoding.attributes[k].text);
+  for (const char *name = nullptr; (name = image_next_text(&picture, name)) != nullptr;)
+    spec.attribute(name, name + std::strlen(name) + 1);
   return spec;
 }
 
@@ -142,15 +142,10 @@ void read_window(const OIIO::ImageSpec &spec, image &out)
 
 void read_metadata(const OIIO::ImageSpec &spec, image &out)
 {
-  std::string lines;
   for (const auto &attribute : spec.extra_attribs)
-    if (attribute.name().string().rfind("pscn:", 0) == 0 && attribute.type() == OIIO::TypeDesc::STRING) {
-      std::string line = attribute.name().string() + "=" + attribute.get_string();
-      std::replace(line.begin(), line.end(), '\n', ' ');
-      lines += line + "\n";
-    }
-  out.metadata = strdup(lines.c_str());
-  if (out.metadata == nullptr) throw std::bad_alloc();
+    if (attribute.name().string().rfind("pscn:", 0) == 0 && attribute.type() == OIIO::TypeDesc::STRING &&
+        !image_add_text(&out, attribute.name().c_str(), "%s", attribute.get_string().c_str()))
+      throw std::bad_alloc();
 }
 
 /* Checks that what is read will be all that the file has. Returns an empty string, or the objection. */

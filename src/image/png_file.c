@@ -95,8 +95,8 @@ static void put_head(png_structp png, png_infop info, const struct png_file *fil
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
   png_set_oFFs(png, info, 0, 0, PNG_OFFSET_PIXEL);
   put_text(png, info, "oiio:ColorSpace", "sRGB");
-  for (size_t k = 0; k < encoding->attribute_count; k++)
-    put_text(png, info, encoding->attributes[k].name, encoding->attributes[k].text);
+  for (const char *name = NULL; (name = image_next_text(file->image, name)) != NULL;)
+    put_text(png, info, name, name + strlen(name) + 1);
   png_write_info(png, info);
 }
 

@@ -132,7 +132,7 @@ for solver in bernstein 'aberth { start previous }'; do
     kill -TERM $! 2>/dev/null
     wait $! 2>/dev/null || break
   done
-  grep -ao 'pscn:done.string.....0:[1-7]' rows.exr.part.exr | tr -d '\0-\37' | sed 's|[1-7]$|some|'; echo
+  grep -ao 'pscn:done.string.....[1-7]' rows.exr.part.exr | tr -d '\0-\37' | sed 's|[1-7]$|some|'; echo
   pscn merge rows.exr.part.exr -o no.exr; echo "exit $?"
   pscn render $scene -o rows.exr --solver "$solver" --resume --stats stats.json
   primary=$(sed -n 's/.*"primary": \([0-9]*\).*/\1/p' stats.json)
