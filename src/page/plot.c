@@ -2,7 +2,6 @@
 #include "page/plot.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "page/fill.h"
@@ -28,27 +27,28 @@ static void copy_with_titles(const char *svg, struct text_buffer *out)
 }
 
 /* Reads the figure that gnuplot wrote, if it is complete. */
-static void read_figure(const struct scratch *folder, struct text_buffer *out)
+static void read_figure(const char *folder, struct text_buffer *out)
 {
   static const char LAST[] = "</svg>";
-  char *svg;
-  size_t length;
-  out->failed = scratch_read(folder, FIGURE, &svg, &length) == STATUS_LIMIT;
-  while (svg != NULL && length > 0 && strchr(" \n", svg[length - 1]) != NULL) svg[--length] = '\0';
-  const char *begin = svg == NULL ? NULL : strstr(svg, "<svg");
-  if (begin != NULL && length > sizeof LAST && strcmp(svg + length - (sizeof LAST - 1), LAST) == 0)
+  struct text_buffer svg = scratch_read(folder, FIGURE);
+  const char *begin = svg.text == NULL ? NULL : strstr(svg.text, "<svg");
+  char *end = begin == NULL ? NULL : strstr(begin, LAST);
+  out->failed = svg.failed;
+  if (end != NULL) {
+    end[sizeof LAST - 1] = '\0';
     copy_with_titles(begin, out);
-  free(svg);
+  }
+  text_buffer_free(&svg);
 }
 
-static enum status run_gnuplot(const struct listener *listener, const struct scratch *folder, struct text_buffer *out)
+static enum status run_gnuplot(const struct listener *listener, const char *folder, struct text_buffer *out)
 {
   char log[SCRATCH_PATH_SIZE];
   scratch_path(folder, LOG, log);
   const char *const arguments[] = {"gnuplot", SCRIPT, NULL};
   const char *const environment[] = {"LC_ALL", "C", NULL};
   const struct process_request request = {
-    .arguments = arguments, .folder = folder->path, .environment = environment, .output = log, .timeout = TIMEOUT};
+    .arguments = arguments, .folder = folder, .environment = environment, .output = log, .timeout = TIMEOUT};
   struct process_result result;
   const enum status status = process_run(&request, listener->stop, &result);
   if (status == STATUS_INTERRUPTED) return status;
@@ -58,17 +58,15 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
                   "gnuplot is not installed, so there is no figure; the numbers are written "
                   "all the same. On Debian 'apt-get install gnuplot-nox' installs it.");
   } else if (out->length == 0) {
-    char *text;
-    size_t length;
-    struct text_buffer said = {0};
-    out->failed = scratch_read(folder, LOG, &text, &length) == STATUS_LIMIT || out->failed;
+    struct text_buffer text = scratch_read(folder, LOG), said = {0};
+    out->failed = text.failed || out->failed;
     if (status == STATUS_LIMIT) text_buffer_format(&said, "it took more than %g seconds", TIMEOUT);
     else if (status != STATUS_OK) text_buffer_add_text(&said, strerror(result.reason));
-    else text_buffer_add_printable(&said, text == NULL ? "" : text, length < 400 ? length : 400);
+    else if (text.text != NULL) text_buffer_add_printable(&said, text.text, text.length < 400 ? text.length : 400);
     listener_tell(listener, TOLD_WARNING, "gnuplot made no figure: %s",
                   said.text == NULL ? "its file cannot be read" : said.text);
     text_buffer_free(&said);
-    free(text);
+    text_buffer_free(&text);
   }
   return out->failed ? listener_out_of_memory(listener) : STATUS_OK;
 }
@@ -76,7 +74,7 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
 enum status plot_draw(const struct listener *listener, const char *template, const json_t *values,
                       struct text_buffer *out)
 {
-  struct scratch folder;
+  char folder[SCRATCH_PATH_SIZE];
   struct text_buffer script = {0};
   *out = (struct text_buffer){0};
   fill_template(&script, template, values);
@@ -84,16 +82,16 @@ enum status plot_draw(const struct listener *listener, const char *template, con
     text_buffer_free(&script);
     return listener_out_of_memory(listener);
   }
-  enum status status = scratch_create(&folder);
-  FILE *file = status == STATUS_OK ? scratch_open(&folder, SCRIPT) : NULL;
+  enum status status = scratch_create(folder);
+  FILE *file = status == STATUS_OK ? scratch_open(folder, SCRIPT) : NULL;
   if (file != NULL) {
     (void)fwrite(script.text, 1, script.length, file);
     status = scratch_close(file);
   }
   if (status != STATUS_OK || file == NULL)
     status = listener_fail(listener, STATUS_FILE, "cannot write a temporary file: %s", strerror(errno));
-  else status = run_gnuplot(listener, &folder, out);
-  scratch_remove(&folder);
+  else status = run_gnuplot(listener, folder, out);
+  scratch_remove(folder);
   text_buffer_free(&script);
   return status;
 }

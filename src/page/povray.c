@@ -1,4 +1,5 @@
 /* Runs POV-Ray 3.7. See povray.h. */
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "page/povray.h"
 
 #include <errno.h>
@@ -6,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/number.h"
 #include "page/process.h"
@@ -35,7 +35,7 @@ static const char RESTRICTIONS[] = "[File I/O Security]\nrestricted\n[Shellout S
 
 static enum status cannot_write(const struct povray *povray, const char *name)
 {
-  return listener_fail(povray->listener, STATUS_FILE, "cannot write '%s/%s': %s", povray->folder.path, name,
+  return listener_fail(povray->listener, STATUS_FILE, "cannot write '%s/%s': %s", povray->folder, name,
                        strerror(errno));
 }
 
@@ -44,13 +44,10 @@ static enum status cannot_write(const struct povray *povray, const char *name)
 /* All its output, made printable; `failed` if memory is short. */
 static struct text_buffer read_log(const struct povray *povray)
 {
-  struct text_buffer log = {0};
-  char *text;
-  size_t length;
-  log.failed = scratch_read(&povray->folder, LOG, &text, &length) == STATUS_LIMIT;
-  for (size_t k = 0; text != NULL && k < length; k++) text[k] = text[k] == '\r' ? '\n' : text[k];
-  if (text != NULL) text_buffer_add_printable(&log, text, length);
-  free(text);
+  struct text_buffer raw = scratch_read(povray->folder, LOG), log = {.failed = raw.failed};
+  for (size_t k = 0; k < raw.length; k++) raw.text[k] = raw.text[k] == '\r' ? '\n' : raw.text[k];
+  if (raw.text != NULL) text_buffer_add_printable(&log, raw.text, raw.length);
+  text_buffer_free(&raw);
   return log;
 }
 
@@ -103,11 +100,9 @@ void povray_warnings(const struct povray *povray, struct text_buffer *out)
 /* Removes the folder of the last run and makes a new one. */
 static enum status begin_run(const struct povray *povray)
 {
-  struct scratch run = {.keeper = 0};
   char path[SCRATCH_PATH_SIZE];
-  scratch_path(&povray->folder, RUN, path);
-  memcpy(run.path, path, sizeof path);
-  scratch_remove(&run);
+  scratch_path(povray->folder, RUN, path);
+  scratch_remove(path);
   return mkdir(path, 0700) == 0 ? STATUS_OK : cannot_write(povray, RUN);
 }
 
@@ -115,9 +110,9 @@ static enum status run_program(struct povray *povray, const char *const *argumen
                                struct process_result *out)
 {
   char log_path[SCRATCH_PATH_SIZE], home[SCRATCH_PATH_SIZE], run[SCRATCH_PATH_SIZE];
-  scratch_path(&povray->folder, LOG, log_path);
-  scratch_path(&povray->folder, HOME, home);
-  scratch_path(&povray->folder, RUN, run);
+  scratch_path(povray->folder, LOG, log_path);
+  scratch_path(povray->folder, HOME, home);
+  scratch_path(povray->folder, RUN, run);
   const char *const environment[] = {"HOME", home, "POVINI", NULL, NULL};
   const struct process_request request = {.arguments = arguments,
                                           .folder = run,
@@ -175,10 +170,10 @@ static enum status make_home(const struct povray *povray)
   static const char FILE_NAME[] = "home/.povray/3.7/povray.conf";
   char path[SCRATCH_PATH_SIZE];
   for (size_t k = 0; k < sizeof FOLDERS / sizeof FOLDERS[0]; k++) {
-    scratch_path(&povray->folder, FOLDERS[k], path);
+    scratch_path(povray->folder, FOLDERS[k], path);
     if (mkdir(path, 0700) != 0) return cannot_write(povray, FOLDERS[k]);
   }
-  FILE *file = scratch_open(&povray->folder, FILE_NAME);
+  FILE *file = scratch_open(povray->folder, FILE_NAME);
   if (file == NULL) return cannot_write(povray, FILE_NAME);
   (void)fputs(RESTRICTIONS, file);
   return scratch_close(file) == STATUS_OK ? STATUS_OK : cannot_write(povray, FILE_NAME);
@@ -186,23 +181,16 @@ static enum status make_home(const struct povray *povray)
 
 enum status povray_open(struct povray *povray)
 {
-  if (scratch_create(&povray->folder) != STATUS_OK)
+  if (scratch_create(povray->folder) != STATUS_OK)
     return listener_fail(povray->listener, STATUS_FILE, "cannot make a folder in $TMPDIR or /tmp: %s", strerror(errno));
-  if (strchr(povray->program, '/') != NULL && povray->program[0] != '/') { /* it will run in another folder */
-    char here[SCRATCH_PATH_SIZE];
-    const int length = getcwd(here, sizeof here) == NULL
-                         ? -1
-                         : snprintf(povray->program_path, SCRATCH_PATH_SIZE, "%s/%s", here, povray->program);
-    if (length < 0 || length >= SCRATCH_PATH_SIZE)
-      return listener_fail(povray->listener, STATUS_FILE, "cannot run '%s': %s", povray->program,
-                           strerror(length < 0 ? errno : ENAMETOOLONG));
+  /* it will run in another folder */
+  if (strchr(povray->program, '/') != NULL && realpath(povray->program, povray->program_path) != NULL)
     povray->program = povray->program_path;
-  }
   const enum status status = make_home(povray);
   return status == STATUS_OK ? ask_version(povray) : status;
 }
 
-void povray_close(struct povray *povray) { scratch_remove(&povray->folder); }
+void povray_close(struct povray *povray) { scratch_remove(povray->folder); }
 
 /* Runs it on TEXT, which is in RUN; the picture is then in PICTURE. */
 static enum status run_on_text(struct povray *povray, const char *what, bool pictured, struct process_result *out)
@@ -225,12 +213,66 @@ static enum status run_on_text(struct povray *povray, const char *what, bool pic
   return status;
 }
 
+/* ---- what it reads ---- */
+
+static void put_vector(FILE *file, const double v[3])
+{
+  for (int k = 0; k < 3; k++) {
+    char number[NUMBER_TEXT_SIZE];
+    number_write_17(v[k], number);
+    fprintf(file, "%c%s", k == 0 ? '<' : ',', number);
+  }
+  fputc('>', file);
+}
+
+/* Writes a scene of one object, and questions that write a line for each ray when they are parsed. */
+static enum status write_questions(const struct scene *scene, size_t count, const struct ray *rays, FILE *file)
+{
+  struct scene empty = *scene;
+  empty.patch_count = 0;
+  enum status status = scene_dump(&empty, file);
+  if (status == STATUS_OK) status = scene_dump_union(scene, "Scene", file);
+  fputs("object { Scene }\n#fopen Answers \"" ANSWERS "\" write\n"
+        "#macro Ask(From, Along)\n"
+        "  #local Normal = <0, 0, 0>;\n"
+        "  #local Point = trace(Scene, From, Along, Normal);\n"
+        "  #if (vlength(Normal) = 0)\n"
+        "    #write (Answers, \"-1\\n\")\n"
+        "  #else\n"
+        "    #write (Answers, str(vlength(Point - From), 0, 17), \"\\n\")\n"
+        "  #end\n"
+        "#end\n",
+        file);
+  for (size_t k = 0; k < count; k++) {
+    fputs("Ask(", file);
+    put_vector(file, rays[k].origin);
+    fputs(", ", file);
+    put_vector(file, rays[k].direction);
+    fputs(")\n", file);
+  }
+  fputs("#fclose Answers\n", file);
+  return status;
+}
+
+/* Writes TEXT: a scene, or if `rays` is not NULL, questions about it. */
+static enum status write_text(const struct povray *povray, const struct scene *scene, size_t count,
+                              const struct ray *rays)
+{
+  enum status status = begin_run(povray);
+  if (status != STATUS_OK) return status;
+  FILE *file = scratch_open(povray->folder, RUN "/" TEXT);
+  if (file == NULL) return cannot_write(povray, TEXT);
+  status = rays == NULL ? scene_dump(scene, file) : write_questions(scene, count, rays, file);
+  if (scratch_close(file) != STATUS_OK || status == STATUS_FILE) return cannot_write(povray, TEXT);
+  return status == STATUS_OK ? status : listener_out_of_memory(povray->listener);
+}
+
 /* ---- pictures ---- */
 
 static enum status read_picture(const struct povray *povray, struct image *out)
 {
   char path[SCRATCH_PATH_SIZE], message[IMAGE_MESSAGE_SIZE];
-  scratch_path(&povray->folder, RUN "/" PICTURE, path);
+  scratch_path(povray->folder, RUN "/" PICTURE, path);
   const enum status status = image_read(path, out, message);
   if (status != STATUS_OK) return listener_fail(povray->listener, status, "cannot read POV-Ray's picture: %s", message);
   if (out->width == povray->width && out->height == povray->height && out->channel_count >= 3) {
@@ -253,35 +295,10 @@ static enum status render_text(struct povray *povray, const char *what, struct p
   return status == STATUS_OK ? read_picture(povray, &out->image) : status;
 }
 
-/* What POV-Ray is to read: a scene, and rays for its trace(), if any. */
-struct question {
-  const struct scene *scene;
-  size_t count;
-  const struct ray *rays;
-};
-typedef enum status text_writer(const struct question *question, FILE *file);
-
-/* Writes TEXT by `write`, which returns what scene_dump does. */
-static enum status write_text(const struct povray *povray, text_writer *write, const struct question *question)
-{
-  enum status status = begin_run(povray);
-  if (status != STATUS_OK) return status;
-  FILE *file = scratch_open(&povray->folder, RUN "/" TEXT);
-  if (file == NULL) return cannot_write(povray, TEXT);
-  status = write(question, file);
-  if (scratch_close(file) != STATUS_OK || status == STATUS_FILE) return cannot_write(povray, TEXT);
-  return status == STATUS_OK ? status : listener_out_of_memory(povray->listener);
-}
-
-static enum status write_scene(const struct question *question, FILE *file)
-{
-  return scene_dump(question->scene, file);
-}
-
 enum status povray_render(struct povray *povray, const struct scene *scene, struct povray_picture *out)
 {
   *out = (struct povray_picture){0};
-  const enum status status = write_text(povray, write_scene, &(struct question){.scene = scene});
+  const enum status status = write_text(povray, scene, 0, NULL);
   return status == STATUS_OK ? render_text(povray, "the scene", out) : status;
 }
 
@@ -291,7 +308,7 @@ enum status povray_render_file(struct povray *povray, const char *path, const ch
   char folder[SCRATCH_PATH_SIZE];
   const char *reason;
   *out = (struct povray_picture){0};
-  scratch_path(&povray->folder, RUN, folder);
+  scratch_path(povray->folder, RUN, folder);
   enum status status = begin_run(povray);
   if (status != STATUS_OK) return status;
   status = plain_copy(path, folders, folder, TEXT, &reason, out_word);
@@ -319,62 +336,22 @@ static struct scene flatten(const struct scene *scene)
   return flat;
 }
 
-static void put_vector(FILE *file, const double v[3])
-{
-  for (int k = 0; k < 3; k++) {
-    char number[NUMBER_TEXT_SIZE];
-    number_write_17(v[k], number);
-    fprintf(file, "%c%s", k == 0 ? '<' : ',', number);
-  }
-  fputc('>', file);
-}
-
-/* Writes a scene of one object, and questions that write a line for each ray when they are parsed. */
-static enum status write_questions(const struct question *question, FILE *file)
-{
-  struct scene empty = *question->scene;
-  empty.patch_count = 0;
-  enum status status = scene_dump(&empty, file);
-  if (status == STATUS_OK) status = scene_dump_union(question->scene, "Scene", file);
-  fputs("object { Scene }\n#fopen Answers \"" ANSWERS "\" write\n"
-        "#macro Ask(From, Along)\n"
-        "  #local Normal = <0, 0, 0>;\n"
-        "  #local Point = trace(Scene, From, Along, Normal);\n"
-        "  #if (vlength(Normal) = 0)\n"
-        "    #write (Answers, \"-1\\n\")\n"
-        "  #else\n"
-        "    #write (Answers, str(vlength(Point - From), 0, 17), \"\\n\")\n"
-        "  #end\n"
-        "#end\n",
-        file);
-  for (size_t k = 0; k < question->count; k++) {
-    fputs("Ask(", file);
-    put_vector(file, question->rays[k].origin);
-    fputs(", ", file);
-    put_vector(file, question->rays[k].direction);
-    fputs(")\n", file);
-  }
-  fputs("#fclose Answers\n", file);
-  return status;
-}
-
 static enum status read_answers(const struct povray *povray, size_t count, double out_distance[])
 {
-  char *text;
-  size_t length, at = 0, read = 0;
-  const enum status status = scratch_read(&povray->folder, RUN "/" ANSWERS, &text, &length);
-  if (status == STATUS_LIMIT) return listener_out_of_memory(povray->listener);
-  while (text != NULL && read < count && at < length) {
+  struct text_buffer answers = scratch_read(povray->folder, RUN "/" ANSWERS);
+  size_t at = 0, read = 0;
+  if (answers.failed) return listener_out_of_memory(povray->listener);
+  while (read < count && at < answers.length) {
     double value;
     size_t used;
-    if (number_read(text + at, length - at, &value, &used) == NUMBER_FINITE) {
+    if (number_read(answers.text + at, answers.length - at, &value, &used) == NUMBER_FINITE) {
       out_distance[read++] = value < 0 ? INFINITY : value;
       at += used;
     } else {
       at++;
     }
   }
-  free(text);
+  text_buffer_free(&answers);
   return read == count ? STATUS_OK
                        : listener_fail(povray->listener, STATUS_INPUT, "POV-Ray's trace() printed too few distances");
 }
@@ -389,7 +366,7 @@ enum status povray_ask(struct povray *povray, const struct scene *scene, size_t 
   if (flat.textures == NULL) return listener_out_of_memory(povray->listener);
   struct process_result result;
   struct image picture = {0};
-  enum status status = write_text(povray, write_questions, &(struct question){&flat, count, rays});
+  enum status status = write_text(povray, &flat, count, rays);
   if (status == STATUS_OK) status = run_on_text(povray, "the questions to trace()", out_mask != NULL, &result);
   if (status == STATUS_OK) status = read_answers(povray, count, out_distance);
   if (status == STATUS_OK && out_mask != NULL) status = read_picture(povray, &picture);
@@ -408,7 +385,7 @@ enum status povray_time(struct povray *povray, const struct scene *scene, double
   struct process_result result;
   struct scene flat = flatten(scene);
   if (flat.textures == NULL) return listener_out_of_memory(povray->listener);
-  enum status status = write_text(povray, write_scene, &(struct question){.scene = &flat});
+  enum status status = write_text(povray, &flat, 0, NULL);
   if (status == STATUS_OK) status = run_on_text(povray, "the scene in white", true, &result);
   free(flat.textures);
   struct text_buffer log = read_log(povray);

@@ -29,13 +29,13 @@ struct povray {
   const char *program;        /* searched for in PATH if it has no slash */
   const char *const *options; /* passed on after our own */
   size_t option_count;
-  size_t width, height; /* of pictures, pixels */
-  double timeout;       /* seconds that each run may take */
-  size_t memory;        /* bytes that it may take; 0: no limit */
-  bool optional;        /* its absence is no error */
-  bool missing;         /* there is no such program */
-  bool refused;         /* the last run ended with an error of its own */
-  struct scratch folder;
+  size_t width, height;           /* of pictures, pixels */
+  double timeout;                 /* seconds that each run may take */
+  size_t memory;                  /* bytes that it may take; 0: no limit */
+  bool optional;                  /* its absence is no error */
+  bool missing;                   /* there is no such program */
+  bool refused;                   /* the last run ended with an error of its own */
+  char folder[SCRATCH_PATH_SIZE]; /* our own, with one for each run */
   char program_path[SCRATCH_PATH_SIZE];
   char version[64]; /* as it calls itself; "" before povray_open */
 };

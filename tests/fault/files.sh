@@ -230,8 +230,7 @@ for signal in KILL TERM; do
         '</html>') ;;
         *) wrong "$command: half a page" ;;
       esac
-      for wait in $(seq 100); do [ -n "$(ls -A "$TMPDIR")" ] && sleep 0.05; done # who cleans up after SIGKILL is another
-      [ -z "$(ls -A "$TMPDIR")" ] || wrong "$command: left here: $(ls "$TMPDIR")"
+      [ $signal = KILL ] || [ -z "$(ls -A "$TMPDIR")" ] || wrong "$command: left here: $(ls "$TMPDIR")"
       rm -rf results "$TMPDIR"/*
     done
   done
