@@ -60,35 +60,6 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
   return spec;
 }
 
-template <typename Value> void put(unsigned char *&at, Value value)
-{
-  std::memcpy(at, &value, sizeof value);
-  at += sizeof value;
-}
-
-/* Rows of pixels in the file's own types, packed. */
-Bytes native_rows(const image &picture, const image_encoding &encoding, std::size_t row, std::size_t rows)
-{
-  const std::size_t pixels = picture.width * rows, begin = row * picture.width * picture.channel_count;
-  std::vector<OIIO::TypeDesc> types;
-  std::size_t size = 0; /* of a pixel */
-  for (std::size_t c = 0; c < picture.channel_count; c++) {
-    types.push_back(channel_type(encoding, picture.channel[c]));
-    size += types[c].size();
-  }
-  Bytes bytes(pixels * size);
-  unsigned char *at = bytes.data();
-  for (std::size_t k = 0; k < pixels * picture.channel_count; k++) {
-    const float value = picture.value[begin + k];
-    if (types[k % picture.channel_count] == OIIO::TypeDesc::HALF) {
-      unsigned short half = 0;
-      OIIO::convert_types(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &half, 1);
-      put(at, half);
-    } else put(at, value);
-  }
-  return bytes;
-}
-
 /* Writes all rows, some at a time, so that their converted values take little memory, and the caller can follow and
  * stop it: STATUS_INTERRUPTED. */
 status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
@@ -96,13 +67,13 @@ status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
 {
   /* Whole blocks of every EXR compression, or one row of tiles. */
   const std::size_t most = encoding.tile == 0 ? 64 : static_cast<std::size_t>(encoding.tile);
-  const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeDesc();
   for (std::size_t row = 0; row < picture.height; row += most) {
     const std::size_t rows = std::min(most, picture.height - row);
-    const Bytes pixels = native_rows(picture, encoding, row, rows);
+    const float *pixels = picture.value + row * picture.width * picture.channel_count;
     const int y = spec.y + static_cast<int>(row), end = y + static_cast<int>(rows);
-    if (!(encoding.tile == 0 ? output.write_scanlines(y, end, 0, type, pixels.data())
-                             : output.write_tiles(spec.x, spec.x + spec.width, y, end, 0, 1, type, pixels.data())))
+    if (!(encoding.tile == 0
+            ? output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, pixels)
+            : output.write_tiles(spec.x, spec.x + spec.width, y, end, 0, 1, OIIO::TypeDesc::FLOAT, pixels)))
       return STATUS_FILE;
     const double part = static_cast<double>(row + rows) / static_cast<double>(picture.height);
     if (encoding.progress != nullptr && !encoding.progress(encoding.context, part)) return STATUS_INTERRUPTED;
