@@ -1,11 +1,14 @@
 /* A picture of a scene: threads take tiles from a common counter, while the calling thread watches. */
+#define _GNU_SOURCE 1 /* sched_getaffinity, CPU_COUNT, sem_clockwait */
 #include "render/render.h"
 
 #include <errno.h>
-#include <pthread.h>
+#include <sched.h>
+#include <semaphore.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "render/threads.h"
@@ -15,7 +18,7 @@ enum {
   NANOSECONDS = 1000 * 1000 * 1000
 };
 
-/* Shared by the threads. The mutex guards only `running`; the rest is atomic or read-only. */
+/* Shared by the threads: atomic or read-only. */
 struct crew {
   const struct tile_job *job;
   const struct render_watch *watch;
@@ -24,9 +27,7 @@ struct crew {
   atomic_size_t next, pixels;
   atomic_uint_fast64_t rays;
   atomic_bool aborted;
-  pthread_mutex_t mutex;
-  pthread_cond_t ended;
-  size_t running;
+  sem_t ended; /* counts workers */
   struct worker *workers;
 };
 
@@ -70,34 +71,30 @@ static enum status work(void *context, size_t index)
     if (k >= crew->tiles->count) break;
     if (!tile_is_done(crew->tiles, k)) render_tile(crew, worker, k);
   }
-  pthread_mutex_lock(&crew->mutex);
-  if (--crew->running == 0) pthread_cond_signal(&crew->ended);
-  pthread_mutex_unlock(&crew->mutex);
+  (void)sem_post(&crew->ended);
   return STATUS_OK;
 }
 
-/* Waits for the last worker, and reports progress. */
-static void watch_crew(struct crew *crew, double start)
+/* Waits for `count` workers to end, and reports progress. */
+static void watch_crew(struct crew *crew, size_t count, double start)
 {
   const struct render_watch *watch = crew->watch;
-  pthread_mutex_lock(&crew->mutex);
-  while (crew->running > 0) {
+  for (size_t ended = 0; ended < count;) {
     struct timespec until;
     clock_gettime(CLOCK_MONOTONIC, &until);
     until.tv_nsec += WATCH_NANOSECONDS;
     until.tv_sec += until.tv_nsec / NANOSECONDS;
     until.tv_nsec %= NANOSECONDS;
-    if (pthread_cond_timedwait(&crew->ended, &crew->mutex, &until) == ETIMEDOUT && watch->progress != NULL) {
+    if (sem_clockwait(&crew->ended, CLOCK_MONOTONIC, &until) == 0) {
+      ended++;
+    } else if (errno == ETIMEDOUT && watch->progress != NULL) {
       const struct render_progress progress = {.pixels = atomic_load(&crew->pixels),
                                                .pixels_total = crew->pixels_total,
                                                .rays = atomic_load(&crew->rays),
                                                .seconds = clock_seconds(CLOCK_MONOTONIC) - start};
-      pthread_mutex_unlock(&crew->mutex);
       watch->progress(watch->context, &progress);
-      pthread_mutex_lock(&crew->mutex);
     }
   }
-  pthread_mutex_unlock(&crew->mutex);
 }
 
 /* Runs the workers to their end. */
@@ -105,33 +102,13 @@ static enum status run_crew(struct crew *crew, size_t count, double start)
 {
   struct thread *threads = calloc(count + 1, sizeof *threads);
   if (threads == NULL) return STATUS_LIMIT;
-  crew->running = count;
   const size_t started = threads_start(threads, 0, count, work, crew);
-  if (started < count) {
-    atomic_store(&crew->aborted, true);
-    pthread_mutex_lock(&crew->mutex);
-    crew->running -= count - started;
-    pthread_mutex_unlock(&crew->mutex);
-  }
-  watch_crew(crew, start);
+  if (started < count) atomic_store(&crew->aborted, true);
+  watch_crew(crew, started, start);
   const enum status status = threads_join(threads, started);
   free(threads);
   if (started < count) return STATUS_LIMIT;
   return status == STATUS_OK && stopped(crew) ? STATUS_INTERRUPTED : status;
-}
-
-static enum status crew_synchronise(struct crew *crew)
-{
-  pthread_condattr_t attributes;
-  if (pthread_condattr_init(&attributes) != 0) return STATUS_LIMIT;
-  enum status status = STATUS_LIMIT;
-  if (pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
-      pthread_cond_init(&crew->ended, &attributes) == 0) {
-    if (pthread_mutex_init(&crew->mutex, NULL) == 0) status = STATUS_OK;
-    else pthread_cond_destroy(&crew->ended);
-  }
-  pthread_condattr_destroy(&attributes);
-  return status;
 }
 
 /* The same scene with the default solver, whose answers are proven. Borrows the scene. */
@@ -204,12 +181,8 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   *out_stats = (struct render_stats){0};
   struct tile_seen seen = {0};
   const struct tile_job job = {.scene = scene,
-                               .width = options->width,
-                               .height = options->height,
-                               .samples = options->samples,
-                               .crop = options->crop,
+                               .options = options,
                                .every_pixel = scene_starts_warm(scene),
-                               .channels = options->channels,
                                .out = out,
                                .stop = {watch->stop, watch->failed},
                                .seen = &seen};
@@ -226,11 +199,10 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   if (status == STATUS_OK && channel_list_has(&options->channels, CHANNEL_DEVIATION))
     status = certified_create(scene, &team, &certified);
   if (status == STATUS_OK) status = workers_create(workers, count, intersector, certified.intersector, watch->stop);
-  if (status == STATUS_OK) status = crew_synchronise(&crew);
+  if (status == STATUS_OK && sem_init(&crew.ended, 0, 0) != 0) status = STATUS_LIMIT;
   if (status == STATUS_OK) {
     status = run_crew(&crew, count, start);
-    pthread_cond_destroy(&crew.ended);
-    pthread_mutex_destroy(&crew.mutex);
+    (void)sem_destroy(&crew.ended);
   }
   if (workers != NULL) workers_destroy(workers, count, &out_stats->counts);
   free(workers);
@@ -239,4 +211,13 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   out_stats->threads = count;
   out_stats->seen = atomic_load(&seen.patch), out_stats->lit = atomic_load(&seen.light);
   return status;
+}
+
+size_t render_processors(void)
+{
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0) return (size_t)CPU_COUNT(&set);
+  const long online = sysconf(_SC_NPROCESSORS_ONLN);
+  return online > 0 ? (size_t)online : 1;
 }

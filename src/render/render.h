@@ -52,7 +52,8 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
                          const struct render_options *options, const struct render_watch *watch, float *out,
                          struct render_stats *out_stats) STATUS_MUST_CHECK;
 
-/* The number of processors that this process may use, at least 1. */
+/* The number of processors that this process may use, at least 1: those of its affinity mask, which containers and
+ * taskset(1) restrict. */
 size_t render_processors(void);
 
 #endif

@@ -6,6 +6,7 @@
 #include "geometry/vector.h"
 #include "render/camera.h"
 #include "render/measure.h"
+#include "render/render.h"
 #include "render/shade.h"
 
 /* A pixel while its samples are gathered. */
@@ -32,7 +33,7 @@ static size_t gather(const struct tile_job *job, const struct rectangle *kept, s
   size_t count = 0;
   for (size_t k = 0; k < PACKET_SIZE; k++) {
     const size_t x = x0 + k % PACKET_WIDTH, y = y0 + k / PACKET_WIDTH;
-    if (!(x < job->width && y < job->height && (job->every_pixel || inside(kept, x, y)))) continue;
+    if (!(x < job->options->width && y < job->options->height && (job->every_pixel || inside(kept, x, y)))) continue;
     /* Of the rest, a hundred bytes, only what is needed is written. */
     struct pixel *pixel = &out[count++];
     pixel->x = x, pixel->y = y, pixel->hits = 0, pixel->lit = false, pixel->hit.patch = HIT_NONE;
@@ -58,18 +59,19 @@ static void deviations(struct tracer *certified, size_t count, const struct ray 
 static void sample(const struct tile_job *job, struct tracer *tracer, struct tracer *certified, size_t i, size_t j,
                    size_t count, struct pixel pixels[])
 {
-  const double n = (double)job->samples;
-  const bool plain = channel_list_is_rgb(&job->channels); /* needs no sample's hit */
-  const bool middle = !plain && i == job->samples / 2 && j == job->samples / 2;
+  const struct render_options *options = job->options;
+  const double n = (double)options->samples;
+  const bool plain = channel_list_is_rgb(&options->channels); /* needs no sample's hit */
+  const bool middle = !plain && i == options->samples / 2 && j == options->samples / 2;
   struct ray rays[PACKET_SIZE];
   struct hit hits[PACKET_SIZE];
   double rgb[PACKET_SIZE][3];
   for (size_t k = 0; k < count; k++) {
-    const double s = ((double)pixels[k].x + ((double)i + 0.5) / n) / (double)job->width;
-    const double t = ((double)pixels[k].y + ((double)j + 0.5) / n) / (double)job->height;
+    const double s = ((double)pixels[k].x + ((double)i + 0.5) / n) / (double)options->width;
+    const double t = ((double)pixels[k].y + ((double)j + 0.5) / n) / (double)options->height;
     camera_ray(&job->scene->camera, s, t, &rays[k]);
   }
-  if (middle && channel_list_measures(&job->channels))
+  if (middle && channel_list_measures(&options->channels))
     for (size_t k = 0; k < count; k++) measure_ray(tracer, &rays[k], &hits[k], &pixels[k].solver);
   else tracer_closest(tracer, count, rays, hits);
   if (middle && certified != NULL) deviations(certified, count, rays, hits, pixels);
@@ -118,11 +120,12 @@ static void channel_values(enum channel_kind kind, const struct pixel *pixel, do
 
 static void keep(const struct tile_job *job, const struct pixel *pixel)
 {
-  const size_t index = (pixel->y - job->crop.y) * job->crop.width + (pixel->x - job->crop.x);
-  const double samples = (double)job->samples * (double)job->samples;
-  float *out = job->out + index * job->channels.width;
-  for (size_t c = 0; c < job->channels.count; c++) {
-    const enum channel_kind kind = job->channels.kind[c];
+  const struct render_options *options = job->options;
+  const size_t index = (pixel->y - options->crop.y) * options->crop.width + (pixel->x - options->crop.x);
+  const double samples = (double)options->samples * (double)options->samples;
+  float *out = job->out + index * options->channels.width;
+  for (size_t c = 0; c < options->channels.count; c++) {
+    const enum channel_kind kind = options->channels.kind[c];
     double values[3] = {0};
     channel_values(kind, pixel, samples, values);
     for (size_t k = 0; k < channel_traits(kind)->width; k++) *out++ = (float)values[k];
@@ -132,13 +135,14 @@ static void keep(const struct tile_job *job, const struct pixel *pixel)
 bool tile_render_row(const struct tile_job *job, struct tracer *tracer, struct tracer *certified,
                      const struct rectangle *kept, size_t row)
 {
+  const struct render_options *options = job->options;
   const size_t x0 = kept->x / TILE_SIZE * TILE_SIZE, y = kept->y / TILE_SIZE * TILE_SIZE + row * PACKET_HEIGHT;
   for (size_t x = x0; x < x0 + TILE_SIZE; x += PACKET_WIDTH) {
     struct pixel pixels[PACKET_SIZE];
     const size_t count = gather(job, kept, x, y, pixels);
-    for (size_t k = 0; k < job->samples * job->samples && count > 0; k++) {
+    for (size_t k = 0; k < options->samples * options->samples && count > 0; k++) {
       if (tile_stopped(job)) return false;
-      sample(job, tracer, certified, k % job->samples, k / job->samples, count, pixels);
+      sample(job, tracer, certified, k % options->samples, k / options->samples, count, pixels);
     }
     for (size_t k = 0; k < count; k++) {
       if (!inside(kept, pixels[k].x, pixels[k].y)) continue;

@@ -12,8 +12,9 @@
 
 #include "base/rectangle.h"
 #include "intersect/intersect.h"
-#include "render/channels.h"
 #include "scene/scene.h"
+
+struct render_options;
 
 /* Sides in pixels of a tile, and of a packet, which divides it evenly. */
 enum { TILE_SIZE = 32, PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
@@ -22,11 +23,8 @@ enum { TILE_ROWS = TILE_SIZE / PACKET_HEIGHT }; /* rows of packets in a tile */
 /* What to render. Pointers are borrowed. */
 struct tile_job {
   const struct scene *scene;
-  size_t width, height;  /* of the whole picture, pixels */
-  size_t samples;        /* N: N x N rays per pixel, on a regular grid */
-  struct rectangle crop; /* the pixels that `out` holds */
-  bool every_pixel;      /* render whole tiles, because a ray may depend on the previous one (`start previous`) */
-  struct channel_list channels;
+  const struct render_options *options; /* (render/render.h) */
+  bool every_pixel;          /* render whole tiles, because a ray may depend on the previous one (`start previous`) */
   float *out;                /* [crop.height][crop.width][channels.width] */
   const atomic_int *stop[2]; /* the work ends when one turns nonzero; NULL: never */
   struct tile_seen *seen;
