@@ -1,6 +1,7 @@
 # Files, columns and exit codes of `pscn chart`; peers and gnuplot that are missing.
 scene=$SCENES/bent.pscn
 small="--quick --size 32x24 --rays 128 --rounds 1"
+one="$small --solver bernstein"
 # Gnuplot may be missing.
 chart() {
   try pscn chart "$@" 2>said
@@ -44,14 +45,14 @@ cut -d, -f1,2 chosen/chart.csv | grep -v -e dhseqr -e dggev
 chart "$scene" $small --solver nothing -o chosen
 
 # Missing peers are reported, and are no error. The page quotes the command line for a shell.
-try pscn chart "$scene" $small --povray nowhere/povray -I '' -o "out '2'" 2>&1 | grep -e '^POV-Ray' -e '^exit'
+try pscn chart "$scene" $one --povray nowhere/povray -I '' -o "out '2'" 2>&1 | grep -e '^POV-Ray' -e '^exit'
 sed -n "s/&#39;/'/g; s/.*\(pscn chart [^<]*\).*/\1/p" "out '2'/chart.html"
 
 # Without gnuplot the numbers are there. The lack is reported, except with --quiet: nothing is wrong.
 mkdir empty
 pscn=$(command -v pscn)
-(PATH=empty; "$pscn" chart "$scene" $small --no-peers -o out3 2>&1) | grep gnuplot
-(PATH=empty; try "$pscn" chart "$scene" $small --no-peers --quiet -o out3)
+(PATH=empty; "$pscn" chart "$scene" $one --no-peers -o out3 2>&1) | grep gnuplot
+(PATH=empty; try "$pscn" chart "$scene" $one --no-peers --quiet -o out3)
 ls out3
 
 # Nothing to hit, in an empty scene and beside a patch, where the paper's form may see hits. This is reported; there is
@@ -59,7 +60,7 @@ ls out3
 echo 'background { rgb 0 }' >nothing.pscn
 sed "s/look_at <[^>]*>/look_at <0, 50, 0>/" "$scene" >aside.pscn
 for name in nothing aside; do
-  try pscn chart $name.pscn $small --povray nowhere/povray -o out4 >said 2>&1
+  try pscn chart $name.pscn $one --solver "aberth { form paper }" --povray nowhere/povray -o out4 >said 2>&1
   grep -e warning -e '^No camera' -e '^exit' -e 'front)' -e fail -e 'Embree.*no patch' said
   grep -c 'bernstein$' said
   ls out4
@@ -69,18 +70,18 @@ done
 # given.
 sed 's/location <[^>]*>/location <0, 0.4, -20>/; s/look_at <[^>]*>/look_at <5, 2, 0>/' "$SCENES/flat.pscn" >small.pscn
 for rays in '' '--rays 1024'; do
-  chart small.pscn --quick --size 320x240 $rays --rounds 1 --no-peers --quiet -o out5
+  chart small.pscn --quick --size 320x240 $rays --rounds 1 --solver bernstein --no-peers --quiet -o out5
   LC_ALL=C awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } NR == 2 { print $at["rays"], ($at["hits"] > 0) }' out5/chart.csv
 done
 
 # A standard output that cannot be written.
-pscn chart nothing.pscn $small --no-peers -o out8 2>/dev/null >/dev/full
+pscn chart nothing.pscn $one --no-peers -o out8 2>/dev/null >/dev/full
 echo "exit $?"
 ls out8/chart.html && rm -r out8
 
 # The page quotes the command line for a shell.
 cp nothing.pscn "it's \$x.pscn"
-chart "it's \$x.pscn" $small --povray nowhere/povray --quiet -o out7 2>/dev/null >&2
+chart "it's \$x.pscn" $one --povray nowhere/povray --quiet -o out7 2>/dev/null >&2
 eval "set -- $(sed -n "s/&#39;/'/g; s/.*<code>pscn \(.*\)<\/code>.*/\1/p" out7/chart.html)"
 printf '%s\n' "$2"
 rm -r "it's \$x.pscn" out7
@@ -92,7 +93,7 @@ rm -r "it's \$x.pscn" out7
   for y in -2 -1 1 2; do echo "<-2, $y, -1> <-1, $y, -1> <1, $y, -1.5> <2, $y, -1>"; done
   echo 'solver aberth { tolerance 1e-9 } }'
 } >two.pscn
-chart two.pscn $small --no-peers --quiet -o out6
+chart two.pscn $one --no-peers --quiet -o out6
 
 # The command line.
 try pscn chart

@@ -2,7 +2,7 @@
 try pscn --version
 try pscn help
 try pscn --help >/dev/null
-try pscn
+cmp <(try pscn 2>&1 >/dev/null | cat) <(pscn help) && try pscn 2>/dev/null
 for command in dump help; do try pscn help $command; done
 for command in render trace dump compare help; do
   pscn $command --help | cmp - <(pscn help $command) && echo "--help is the same"

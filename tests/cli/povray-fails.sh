@@ -37,22 +37,24 @@ chmod +x povray
 mkdir out && echo old >out/check.html
 export MODE TMPDIR=$PWD/tmp
 mkdir tmp
+left() { # says what is there beside the page of an earlier run
+  [ "$(ls -A tmp out; cat out/check.html)" = "$(printf 'out:\ncheck.html\n\ntmp:\nold')" ] || ls -A tmp out
+}
 for MODE in mute fails empty other wide broken killed slow deaf writes answers fewer; do
   echo "$MODE:"
   try timeout 60 pscn check "$scene" $small --povray ./povray --timeout $([ $MODE = writes ] && echo 30 || echo 1) -o out 2>&1 | cat -v | sed "s|$PWD|HERE|g"
-  ls -A tmp out
-  cat out/check.html
+  left
 done
 for MODE in talks warns timeless; do
   echo "$MODE:"
   try timeout 60 pscn check "$scene" ${small% --quiet} --povray ./povray -o done 2>&1 | grep 'exit\|arning\|Error\|old'
-  ls -A tmp
+  left
 done
 for MODE in mute fails empty killed slow answers timeless talks; do
   echo "$MODE:"
   try pscn chart "$scene" --size 1x1 --rays 1 --rounds 1 --quick --quiet --povray ./povray --timeout 1 -o chart 2>&1 | grep -v -i 'embree\|gnuplot' | sed "s|$PWD|HERE|g"
   grep -o 'POV-Ray failed[^<]*\|POV-Ray 3.7.0: errors' chart/chart.html
-  ls -A tmp
+  left
 done
 echo "where it begins to read, and no more than the end of much:"
 for MODE in parses raves; do

@@ -4,7 +4,7 @@ for solver in bernstein newton laguerre aberth durand_kerner 'newton { form pape
   'aberth { form paper }' 'aberth { basis bernstein }' 'durand_kerner { form paper }'; do
   pscn roots --solver "$solver" --format table <polynomials >roots
   pscn roots --solver "$solver" --iterates <polynomials >ways
-  LC_ALL=C awk -v solver="$solver" '
+  LC_ALL=C awk '
     function abs(x) { return x < 0 ? -x : x }
     FNR == 1 { next }
     FNR == NR { root[++roots] = $0; next }
@@ -25,7 +25,7 @@ for solver in bernstein newton laguerre aberth durand_kerner 'newton { form pape
         ways++
         lost += near > 1e-6
       }
-      print solver ": " (ways > 0 ? "ways" : "no way") ", " lost + 0 " of them end at no root"
+      print (ways > 0 ? "ways" : "no way") ", " lost + 0 " of them end at no root"
     }' roots ways
 done
 # If nothing is iterated, nothing is printed. The formats cannot be combined.
