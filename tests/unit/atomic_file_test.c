@@ -248,18 +248,6 @@ IN_FOLDER(names_that_others_made_are_passed_over)
   assert_int_equal(count_entries(), 1);
 }
 
-IN_FOLDER(symbolic_link_is_followed)
-{
-  int reason;
-  put_text("a", "old");
-  assert_int_equal(symlink("a", "link"), 0);
-  assert_int_equal(write_text("link", "new", &reason), STATUS_OK);
-  expect_file("a", "new");
-  struct stat info;
-  assert_int_equal(lstat("link", &info), 0);
-  assert_true(S_ISLNK(info.st_mode));
-}
-
 IN_FOLDER(impossible_names_have_their_reasons)
 {
   char long_name[300];

@@ -8,32 +8,27 @@
 /* Two pictures of 2 x 2 pixels and two channels; the second has its channels in the other order. */
 static const size_t FIRST[] = {0, 1}, SECOND[] = {1, 0};
 
-static int setup(void **state)
+static struct image images[2];
+
+static int make_images(void **state)
 {
-  static struct image images[2];
-  *state = images;
-  for (int k = 0; k < 2; k++)
-    if (image_create(2, 2, 2, &images[k]) != STATUS_OK) return -1;
+  (void)state;
+  return image_create(2, 2, 2, &images[0]) != STATUS_OK || image_create(2, 2, 2, &images[1]) != STATUS_OK;
+}
+
+static int destroy_images(void **state)
+{
+  (void)state;
+  image_destroy(&images[0]), image_destroy(&images[1]);
   return 0;
 }
 
-static int teardown(void **state)
-{
-  struct image *images = *state;
-  image_destroy(&images[0]);
-  image_destroy(&images[1]);
-  return 0;
-}
+#define WITH_IMAGES(test) TEST_WITH(test, make_images, destroy_images)
 
-static struct compare_pair pair_of(void **state)
-{
-  const struct image *images = *state;
-  return (struct compare_pair){&images[0], &images[1], 2, FIRST, SECOND};
-}
+static const struct compare_pair pair = {&images[0], &images[1], 2, FIRST, SECOND};
 
-static void equal_pictures(void **state)
+WITH_IMAGES(equal_pictures)
 {
-  const struct compare_pair pair = pair_of(state);
   struct compare_result result;
   compare_images(&pair, &result, NULL, 1);
   assert_int_equal(result.pixels, 4);
@@ -41,9 +36,8 @@ static void equal_pictures(void **state)
   assert_int_equal(compare_count_over(&pair, 0), 0);
 }
 
-static void numbers_by_definition(void **state)
+WITH_IMAGES(numbers_by_definition)
 {
-  const struct compare_pair pair = pair_of(state);
   image_pixel(pair.first, 1, 0)[0] = 0.5f;   /* differs by 0.5 */
   image_pixel(pair.second, 1, 0)[0] = 0.25f; /* channel 1 of the first differs by 0.25, in the same pixel */
   image_pixel(pair.first, 0, 1)[1] = 2;      /* the peak, equal in both */
@@ -68,9 +62,8 @@ static void numbers_by_definition(void **state)
 }
 
 /* Of equal differences the first one is reported, row by row. */
-static void the_first_worst_is_told(void **state)
+WITH_IMAGES(the_first_worst_is_told)
 {
-  const struct compare_pair pair = pair_of(state);
   struct compare_result result;
   image_pixel(pair.first, 1, 0)[0] = image_pixel(pair.first, 1, 0)[1] = image_pixel(pair.first, 0, 1)[0] = 0.5f;
   compare_images(&pair, &result, NULL, 1);
@@ -81,9 +74,8 @@ static void the_first_worst_is_told(void **state)
 }
 
 /* The peak is the largest value of either picture. */
-static void peak_of_both(void **state)
+WITH_IMAGES(peak_of_both)
 {
-  const struct compare_pair pair = pair_of(state);
   const struct image *const both[] = {pair.first, pair.second};
   for (int k = 0; k < 2; k++) {
     struct compare_result result;
@@ -94,9 +86,8 @@ static void peak_of_both(void **state)
   }
 }
 
-static void values_that_are_not_finite(void **state)
+WITH_IMAGES(values_that_are_not_finite)
 {
-  const struct compare_pair pair = pair_of(state);
   image_pixel(pair.first, 0, 0)[0] = INFINITY;
   image_pixel(pair.second, 0, 0)[1] = INFINITY;
   image_pixel(pair.first, 1, 1)[0] = NAN;
@@ -114,9 +105,8 @@ static void values_that_are_not_finite(void **state)
   assert_true(isinf(result.max));
 }
 
-static void limits(void **state)
+TEST(limits)
 {
-  (void)state;
   const struct compare_result result = {.pixels = 200, .max = 0.3};
   const struct compare_limit none = {.any = INFINITY};
   assert_false(compare_limit_passed(&none, &result, 0));
@@ -131,15 +121,4 @@ static void limits(void **state)
   assert_true(compare_limit_passed(&any, &result, 0));
   const struct compare_limit same = {.any = 0.3};
   assert_false(compare_limit_passed(&same, &result, 0));
-}
-
-#define WITH_IMAGES(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    WITH_IMAGES(equal_pictures), WITH_IMAGES(numbers_by_definition),      WITH_IMAGES(the_first_worst_is_told),
-    WITH_IMAGES(peak_of_both),   WITH_IMAGES(values_that_are_not_finite), cmocka_unit_test(limits),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -91,46 +91,6 @@ TEST(nothing_said_is_lost)
   }
 }
 
-/* A line of a stream is reported by its number in the stream, although the rest of the stream is not there. */
-TEST(lines_before_a_text_count)
-{
-  struct source *source = source_from_text("<stdin>", "1 x 3", 5);
-  struct told told = {.diagnostics = {.tell = keep}};
-  told.diagnostics.context = &told;
-  source->lines_before = (size_t)1 << 40;
-  diagnostics_error(&told.diagnostics, (struct place){source, 2, 3}, "this is no number");
-  source_destroy(source);
-  assert_string_equal(told.text, "<stdin>:1099511627777:3: error: this is no number\n  1 x 3\n    ^\n");
-}
-
-static void keep_all(void *context, const char *text, size_t length)
-{
-  struct told *told = context;
-  const size_t before = strlen(told->text);
-  assert_true(before + length < sizeof told->text);
-  memcpy(told->text + before, text, length);
-}
-
-/* After the last that is shown one line says so. More are only counted, errors and warnings separately. */
-TEST(so_many_are_shown)
-{
-  const struct place nowhere = {NULL, 0, 0};
-  struct told told = {.diagnostics = {.tell = keep_all}};
-  char expected[sizeof told.text] = "";
-  told.diagnostics.context = &told;
-  for (int k = 1; k <= 23; k++) {
-    assert_int_equal(diagnostics_full(&told.diagnostics), k > 20);
-    diagnostics_error(&told.diagnostics, nowhere, "no %d", k);
-    diagnostics_warning(&told.diagnostics, nowhere, "no %d", k);
-    char *end = expected + strlen(expected);
-    const size_t room = sizeof expected - strlen(expected);
-    if (k <= 20) (void)snprintf(end, room, "error: no %d\nwarning: no %d\n", k, k);
-    if (k == 21) (void)snprintf(end, room, "20 errors: no more are shown\n20 warnings: no more are shown\n");
-  }
-  assert_string_equal(told.text, expected);
-  assert_true(told.diagnostics.error_count == 23 && told.diagnostics.warning_count == 23);
-}
-
 /* Well-formed UTF-8, at the edges of its table (RFC 3629, section 4). */
 TEST(characters_are_well_formed)
 {

@@ -112,18 +112,6 @@ WITH_FILE(png_holds_the_nearest_codes)
   image_destroy(&image);
 }
 
-WITH_FILE(encoded_values_take_no_curve)
-{
-  const char *const names[] = {"Y"};
-  struct image image = picture(1, names);
-  const struct image_encoding encoding = {.format = IMAGE_PNG, .bits = 8, .encoded = true};
-  struct image back = there_and_back(&image, &encoding);
-  for (size_t k = 0; k < WIDTH * HEIGHT; k++)
-    assert_true(fabs((double)back.value[k] * 255 - floor((double)image.value[k] * 255 + 0.5)) < FLOAT_SLACK * 255);
-  image_destroy(&back);
-  image_destroy(&image);
-}
-
 /* Colours are kept as half, data as float, and found by name in whatever order the file has them. */
 WITH_FILE(exr_keeps_values_and_names)
 {
@@ -398,39 +386,6 @@ WITH_FILE(tiff_without_the_bytes_of_its_pixels_is_refused)
   assert_true(message[0] != '\0');
 }
 
-WITH_FILE(unreadable_files_are_told)
-{
-  static const char *const texts[] = {"", "no picture at all\n", "\x89PNG\r\n\x1a\n", "\x76\x2f\x31\x01"};
-  char message[IMAGE_MESSAGE_SIZE];
-  struct image image;
-  unlink(path);
-  assert_int_equal(image_read(path, &image, message), STATUS_FILE);
-  assert_string_equal(message, "there is no such file");
-  for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-    put_text(path, texts[k]);
-    assert_int_equal(image_read(path, &image, message), STATUS_FILE);
-    assert_true(message[0] != '\0' && strchr(message, '\n') == NULL);
-    assert_null(image.value);
-  }
-  put_text(path, "\xff\xd8\xff"); /* the beginning of a JPEG, and no more */
-  assert_int_equal(image_read(path, &image, message), STATUS_FILE);
-  assert_string_equal(message, "it is not a PNG, EXR, TIFF or JPEG");
-}
-
-/* A file of 65 bytes that asks PNG's reader for 60000 x 60000 pixels. */
-WITH_FILE(pictures_without_bounds_are_refused)
-{
-  static const unsigned char large[] = {137, 80,  78, 71, 13, 10,  26, 10,  0,   0,  0,   13, 73,  72,  68, 82,  0,
-                                        0,   234, 96, 0,  0,  234, 96, 8,   0,   0,  0,   0,  165, 185, 42, 158, 0,
-                                        0,   0,   8,  73, 68, 65,  84, 120, 156, 3,  0,   0,  0,   0,   1,  72,  6,
-                                        137, 210, 0,  0,  0,  0,   73, 69,  78,  68, 174, 66, 96,  130};
-  char message[IMAGE_MESSAGE_SIZE];
-  struct image image;
-  put_bytes(path, large, sizeof large);
-  assert_int_equal(image_read(path, &image, message), STATUS_LIMIT);
-  assert_null(image.value);
-}
-
 /* Whether this byte belongs to a size of the picture. A damaged size may take long, and is tested above. */
 static bool is_size(const unsigned char *bytes, size_t size, size_t at)
 {
@@ -479,15 +434,6 @@ WITH_FILE(damaged_pictures_are_read_or_refused)
     image_destroy(&image);
   }
   assert_true(read > ROUNDS / 10 && refused > ROUNDS / 2);
-}
-
-TEST(suffixes_choose_formats)
-{
-  enum image_format format;
-  assert_true(image_format_of("a.png", &format) && format == IMAGE_PNG);
-  assert_true(image_format_of("b/a.b.EXR", &format) && format == IMAGE_EXR);
-  static const char *const none[] = {"", "png", ".png", "a/.png", "a.png/b", "a.jpg", "a.png ", "a.pn"};
-  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) assert_false(image_format_of(none[k], &format));
 }
 
 TEST(absurd_sizes_are_refused)

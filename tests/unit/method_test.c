@@ -60,27 +60,3 @@ TEST(form_follows_the_paper)
     assert_true(!solver_options_paper(&options.roots));
   }
 }
-
-/* The text omits what follows from the rest. A text too long is cut off between two words. */
-TEST(text_says_what_differs)
-{
-  struct method method;
-  char text[METHOD_TEXT_SIZE];
-  method_default(solver_find("newton", 6), &method);
-  method_text(&method, text, sizeof text);
-  assert_string_equal(text, "newton");
-  method_item_find("split")->set(&method, 3);
-  method_item_find("polish")->set(&method, 0);
-  method_text(&method, text, sizeof text);
-  assert_string_equal(text, "newton { polish off split 3 }");
-  method_item_find("split")->set(&method, 0);
-  method_item_find("residual")->set(&method, 0.5); /* a number beside a word for 0 */
-  method_text(&method, text, sizeof text);
-  assert_string_equal(text, "newton { polish off residual 0.5 }");
-  char little[12];
-  method_text(&method, little, sizeof little);
-  assert_memory_equal(little, "newton", 6);
-  assert_true(strlen(little) < sizeof little);
-  assert_null(method_item_find("nothing"));
-  assert_null(method_item_at(method_item_count()));
-}

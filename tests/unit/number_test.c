@@ -2,6 +2,7 @@
 #include "base/number.h"
 
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,6 +103,24 @@ TEST(ties_are_decided_by_all_digits)
   expect_read(text, NUMBER_FINITE, DBL_MIN - DBL_TRUE_MIN, (size_t)length);
 }
 
+/* Integers half way between two doubles, and one less and one more; also times ten, which a division removes again. */
+TEST(ties_of_integers)
+{
+  for (int bits = 54; bits <= 63; bits++) {
+    for (uint64_t odd = 0; odd < 4; odd++) {
+      const uint64_t unit = UINT64_C(1) << (bits - 53); /* twice the last place of a double of this size */
+      const uint64_t middle = (UINT64_C(1) << bits) + odd * unit + unit / 2;
+      for (int step = -1; step <= 1; step++) {
+        char text[32];
+        const int length = snprintf(text, sizeof text, "%" PRIu64 "0e-1", middle + (uint64_t)(int64_t)step);
+        expect_read(text, NUMBER_FINITE, strtod(text, NULL), (size_t)length);
+        text[length - 4] = '\0';
+        expect_read(text, NUMBER_FINITE, strtod(text, NULL), (size_t)length - 4);
+      }
+    }
+  }
+}
+
 TEST(zeros_on_either_side_count_for_nothing)
 {
   char text[LONG];
@@ -130,6 +149,8 @@ TEST(what_is_written)
   expect_written(0.00001, "0.00001", "0.000010000000000000001");
   expect_written(0x1p-20, "9.5367431640625e-7", "9.5367431640625e-7");
   expect_written(2e-6, "2e-6", "1.9999999999999999e-6");
+  expect_written(1e-7, "1e-7", "9.9999999999999995e-8");
+  expect_written(1e-14, "1e-14", "1e-14"); /* its digits are rounded up to the next power */
   expect_written(123.5, "123.5", "123.5");
   expect_written(DBL_TRUE_MIN, "5e-324", "4.9406564584124654e-324");
   expect_written(DBL_MAX, "1.7976931348623157e308", "1.7976931348623157e308");
@@ -140,23 +161,34 @@ TEST(what_is_written)
   expect_written(NAN, "nan", "nan");
 }
 
-/* And no number of one digit less reads back as the same. */
+/* The digits of a number without zeros on either side, the point and the exponent. */
+static void digits_of(const char *text, char out[64])
+{
+  size_t length = 0;
+  for (const char *c = text; *c != '\0' && *c != 'e'; c++)
+    if (*c >= '0' && *c <= '9' && (length > 0 || *c != '0')) out[length++] = *c;
+  while (length > 0 && out[length - 1] == '0') length--;
+  out[length] = '\0';
+}
+
+/* The 17 digits are printf's. And no number of one digit less reads back as the same. */
 TEST(what_is_written_reads_back)
 {
   struct random random = {SEED + 1};
   for (int n = 0; n < MANY; n++) {
-    const double value = ldexp(random_between(&random, -2, 2), (int)(random_bits(&random) % 2090) - 1068);
+    const int exponent = n % 2 ? (int)(random_bits(&random) % 2090) - 1068 : (int)(random_bits(&random) % 200) - 150;
+    const double value = ldexp(random_between(&random, -2, 2), exponent);
     char text[NUMBER_TEXT_SIZE], other[64];
+    char ours[64], theirs[64];
     assert_true(number_write_17(value, text) < NUMBER_TEXT_SIZE && strtod(text, NULL) == value);
+    snprintf(other, sizeof other, "%.16e", value);
+    digits_of(text, ours), digits_of(other, theirs);
+    assert_string_equal(ours, theirs);
     assert_true(number_write(value, text) < NUMBER_TEXT_SIZE && strtod(text, NULL) == value);
-    int digits = 0, zeros = 0;
-    for (const char *c = text; *c != '\0' && *c != 'e'; c++) {
-      if (*c < '0' || *c > '9' || (digits == 0 && *c == '0')) continue;
-      digits++;
-      zeros = *c == '0' ? zeros + 1 : 0;
-    }
-    if (digits - zeros < 2) continue;
-    snprintf(other, sizeof other, "%.*e", digits - zeros - 2, value);
+    digits_of(text, ours);
+    const int digits = (int)strlen(ours);
+    if (digits < 2) continue;
+    snprintf(other, sizeof other, "%.*e", digits - 2, value);
     assert_true(strtod(other, NULL) != value);
   }
 }

@@ -167,6 +167,19 @@ TEST(channels_tell_of_the_solver)
   assert_true(off > 0 && off < 4 * WIDTH * HEIGHT / 2);
 }
 
+/* The solver's work is measured if any channel shows it. */
+TEST(one_channel_is_enough)
+{
+  static const struct {
+    const char *text;
+    bool measures;
+  } cases[] = {{"rgb,depth,deviation", false}, {"iterations", true}, {"roots", true}, {"rgb,residual", true}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const struct render_options options = options_of(cases[k].text);
+    assert_int_equal(channel_list_measures(&options.channels), cases[k].measures);
+  }
+}
+
 /* The status of a pixel is that of its answer: certain by default, and never without polish. Either way a hit
  * covers. */
 TEST(statuses_are_the_answers)
