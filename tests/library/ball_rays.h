@@ -11,12 +11,12 @@
 
 enum { COUNT = 500 };
 
-/* What the tests of a group share: rays at a ball, and their nearest hits. */
-struct rays {
+/* What the tests of a program share: rays at a ball, and their nearest hits. */
+static struct ball {
   struct pscn_scene *scene;
   struct pscn_ray ray[COUNT];
   struct pscn_hit hit[COUNT];
-};
+} ball;
 
 static inline double random_unit(uint64_t *seed)
 {
@@ -35,12 +35,11 @@ static inline struct pscn_scene *make_ball(void)
 }
 
 /* Rays of all directions from around the ball and from within; some at its poles and seams. */
-static inline int ball_rays_setup(void **state)
+static void make_rays(void)
 {
-  static struct rays rays;
   uint64_t seed = 1;
   for (int n = 0; n < COUNT; n++) {
-    struct pscn_ray *ray = &rays.ray[n];
+    struct pscn_ray *ray = &ball.ray[n];
     for (int k = 0; k < 3; k++) {
       const double reach = n % 5 == 0 ? 0.5 : 1.25,
                    at = n % 7 == 0 && k != 1 ? 0 : reach * (2 * random_unit(&seed) - 1);
@@ -50,15 +49,17 @@ static inline int ball_rays_setup(void **state)
     ray->t_min = 0;
     ray->t_max = INFINITY;
   }
-  rays.scene = make_ball();
-  *state = &rays;
-  return pscn_nearest(rays.scene, COUNT, rays.ray, sizeof *rays.ray, rays.hit, sizeof *rays.hit) == PSCN_OK ? 0 : -1;
+  ball.scene = make_ball();
+  assert_int_equal(pscn_nearest(ball.scene, COUNT, ball.ray, sizeof *ball.ray, ball.hit, sizeof *ball.hit), PSCN_OK);
 }
 
-static inline int ball_rays_teardown(void **state)
+/* Runs the tests with them. */
+static int test_run_with_rays(void)
 {
-  pscn_scene_free(((struct rays *)*state)->scene);
-  return 0;
+  make_rays();
+  const int failed = test_run();
+  pscn_scene_free(ball.scene);
+  return failed;
 }
 
 #endif

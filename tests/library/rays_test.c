@@ -49,13 +49,12 @@ static double derivative_error(const struct pscn_scene *scene, const struct pscn
 }
 
 /* A hit lies on the ray and on the surface; its derivatives and its normal are the surface's. */
-static void test_hits(void **state)
+TEST(test_hits)
 {
-  const struct rays *rays = *state;
   int hits = 0, misses = 0, certain = 0, off_by_something = 0;
   for (int n = 0; n < COUNT; n++) {
-    const struct pscn_hit *hit = &rays->hit[n];
-    const struct pscn_ray *ray = &rays->ray[n];
+    const struct pscn_hit *hit = &ball.hit[n];
+    const struct pscn_ray *ray = &ball.ray[n];
     certain += hit->certain;
     misses += hit->verdict == PSCN_MISS;
     if (hit->verdict != PSCN_HIT) continue;
@@ -71,7 +70,7 @@ static void test_hits(void **state)
     off_by_something += hit->point_error > 0;
     assert_true(fabs(length(hit->normal) - 1) < 1e-14);
     assert_true(hit->patch < BALL_PATCHES && hit->reserved == 0);
-    assert_true(derivative_error(rays->scene, hit) < 1e-8);
+    assert_true(derivative_error(ball.scene, hit) < 1e-8);
     const double size = length(across);
     if (size < 1e-3) continue; /* near a pole */
     double cosine = 0;
@@ -82,9 +81,8 @@ static void test_hits(void **state)
 }
 
 /* A patch moved far from the origin has the same derivatives, up to roundings of its own size. */
-static void test_derivatives_far_away(void **state)
+TEST(test_derivatives_far_away)
 {
-  (void)state;
   double points[2][4][4][3];
   struct pscn_hit hit[2];
   struct pscn_scene *scene;
@@ -109,13 +107,12 @@ static void test_derivatives_far_away(void **state)
 }
 
 /* One by one, backwards, and as members of larger structures. */
-static void test_order_and_strides(void **state)
+TEST(test_order_and_strides)
 {
-  const struct rays *rays = *state;
   struct pscn_hit alone, backwards[COUNT];
-  assert_int_equal(pscn_nearest(rays->scene, COUNT, rays->ray + COUNT - 1, -(ptrdiff_t)sizeof *rays->ray, backwards,
-                                sizeof *backwards),
-                   PSCN_OK);
+  assert_int_equal(
+    pscn_nearest(ball.scene, COUNT, ball.ray + COUNT - 1, -(ptrdiff_t)sizeof *ball.ray, backwards, sizeof *backwards),
+    PSCN_OK);
   static struct {
     char before[5];
     struct pscn_ray ray;
@@ -125,39 +122,37 @@ static void test_order_and_strides(void **state)
   } apart[COUNT];
   memset(apart, 0x5A, sizeof apart);
   for (int n = 0; n < COUNT; n++) {
-    assert_int_equal(pscn_nearest(rays->scene, 1, &rays->ray[n], 0, &alone, 0), PSCN_OK);
-    assert_memory_equal(&alone, &rays->hit[n], sizeof alone);
-    assert_memory_equal(&backwards[COUNT - 1 - n], &rays->hit[n], sizeof alone);
-    apart[n].ray = rays->ray[n];
+    assert_int_equal(pscn_nearest(ball.scene, 1, &ball.ray[n], 0, &alone, 0), PSCN_OK);
+    assert_memory_equal(&alone, &ball.hit[n], sizeof alone);
+    assert_memory_equal(&backwards[COUNT - 1 - n], &ball.hit[n], sizeof alone);
+    apart[n].ray = ball.ray[n];
   }
-  assert_int_equal(pscn_nearest(rays->scene, COUNT, &apart->ray, sizeof *apart, &apart->hit, sizeof *apart), PSCN_OK);
+  assert_int_equal(pscn_nearest(ball.scene, COUNT, &apart->ray, sizeof *apart, &apart->hit, sizeof *apart), PSCN_OK);
   for (int n = 0; n < COUNT; n++) {
-    assert_memory_equal(&apart[n].hit, &rays->hit[n], sizeof alone);
+    assert_memory_equal(&apart[n].hit, &ball.hit[n], sizeof alone);
     for (int k = 0; k < 9; k++) assert_int_equal(apart[n].after[k], 0x5A);
   }
 }
 
-static void test_occluded(void **state)
+TEST(test_occluded)
 {
-  const struct rays *rays = *state;
   uint8_t verdicts[COUNT][2];
   memset(verdicts, 9, sizeof verdicts);
-  assert_int_equal(pscn_occluded(rays->scene, COUNT, rays->ray, sizeof *rays->ray, *verdicts, 2), PSCN_OK);
+  assert_int_equal(pscn_occluded(ball.scene, COUNT, ball.ray, sizeof *ball.ray, *verdicts, 2), PSCN_OK);
   for (int n = 0; n < COUNT; n++) {
-    assert_int_equal(verdicts[n][0], rays->hit[n].verdict);
+    assert_int_equal(verdicts[n][0], ball.hit[n].verdict);
     assert_int_equal(verdicts[n][1], 9);
   }
 }
 
 /* A ray in the plane that a patch touches along a border to the third order, up to a corner that it meets at t: too
  * much work for one ray. */
-static void test_occluded_end_of_work(void **state)
+TEST(test_occluded_end_of_work)
 {
   static const double net[4][4][3] = {{{-3, -3, 3}, {-5, -3, 3}, {-7, -3, 3}, {-9, -3, 3}},
                                       {{6, -3, 3}, {1, -3, 4}, {-4, -3, 5}, {-9, -3, 6}},
                                       {{9, -3, 3}, {7, -3, 3}, {5, -3, 3}, {3, -3, 3}},
                                       {{3, -6, 9}, {3, -5, 7}, {3, -4, 5}, {3, -3, 3}}};
-  (void)state;
   struct pscn_scene *scene;
   assert_int_equal(pscn_scene_from_points(net[0][0], 1, sizeof net, sizeof net[0][0], NULL, &scene), PSCN_OK);
   for (int k = 1; k < 20; k++) {
@@ -171,35 +166,33 @@ static void test_occluded_end_of_work(void **state)
 }
 
 /* From the surface outwards nothing is met, inwards the other side; and the effect of t_min and t_max. */
-static void test_ranges(void **state)
+TEST(test_ranges)
 {
-  const struct rays *rays = *state;
   for (int n = 0; n < COUNT; n++) {
-    const struct pscn_hit *hit = &rays->hit[n];
+    const struct pscn_hit *hit = &ball.hit[n];
     if (hit->verdict != PSCN_HIT || !hit->certain) continue;
-    struct pscn_ray ray = rays->ray[n];
+    struct pscn_ray ray = ball.ray[n];
     struct pscn_hit other;
     ray.t_max = hit->t * (1 - 1e-9);
-    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    assert_int_equal(pscn_nearest(ball.scene, 1, &ray, 0, &other, 0), PSCN_OK);
     assert_int_equal(other.verdict, PSCN_MISS);
     ray.t_max = hit->t * (1 + 1e-9);
-    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    assert_int_equal(pscn_nearest(ball.scene, 1, &ray, 0, &other, 0), PSCN_OK);
     assert_memory_equal(&other, hit, sizeof other);
     struct pscn_ray leaving = {.t_max = INFINITY};
     memcpy(leaving.direction, hit->normal, sizeof leaving.direction);
     const bool inside =
       hit->normal[0] * hit->point[0] + hit->normal[1] * hit->point[1] + hit->normal[2] * hit->point[2] < 0;
-    assert_int_equal(pscn_leave(rays->scene, &rays->ray[n], hit, leaving.direction, leaving.origin), PSCN_OK);
-    assert_int_equal(pscn_nearest(rays->scene, 1, &leaving, 0, &other, 0), PSCN_OK);
+    assert_int_equal(pscn_leave(ball.scene, &ball.ray[n], hit, leaving.direction, leaving.origin), PSCN_OK);
+    assert_int_equal(pscn_nearest(ball.scene, 1, &leaving, 0, &other, 0), PSCN_OK);
     assert_int_equal(other.verdict, inside ? PSCN_HIT : PSCN_MISS);
   }
 }
 
 /* A mirrored ray starts within the crease that the first ray came into, be it as acute as this. A start off the floor
  * along its normal would be above the roof. */
-static void test_leave_in_a_crease(void **state)
+TEST(test_leave_in_a_crease)
 {
-  (void)state;
   double nets[2][4][4][3];
   struct pscn_scene *scene;
   for (int k = 0; k < 32; k++) {
@@ -225,18 +218,17 @@ static void test_leave_in_a_crease(void **state)
 }
 
 /* Directions as short and as long as they may be. Beyond that they are no directions. */
-static void test_lengths(void **state)
+TEST(test_lengths)
 {
-  const struct rays *rays = *state;
   const struct pscn_ray towards = {{0.1, 0.2, -4}, {0.0625, -0.125, 1}, 0, 8};
   struct pscn_hit one, other;
-  assert_int_equal(pscn_nearest(rays->scene, 1, &towards, 0, &one, 0), PSCN_OK);
+  assert_int_equal(pscn_nearest(ball.scene, 1, &towards, 0, &one, 0), PSCN_OK);
   assert_int_equal(one.verdict, PSCN_HIT);
   for (int e = -320; e <= 320; e += 20) {
     struct pscn_ray ray = towards;
     for (int k = 0; k < 3; k++) ray.direction[k] = ldexp(towards.direction[k], e);
     ray.t_max = ldexp(8, -e);
-    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    assert_int_equal(pscn_nearest(ball.scene, 1, &ray, 0, &other, 0), PSCN_OK);
     assert_true(ldexp(other.t, e) == one.t);
     other.t = one.t;
     assert_memory_equal(&other, &one, sizeof one);
@@ -244,24 +236,22 @@ static void test_lengths(void **state)
   static const double beyond[] = {0x1p-340, 1.0001e100, 0x1p340, DBL_TRUE_MIN, DBL_MAX};
   for (size_t k = 0; k < sizeof beyond / sizeof *beyond; k++) {
     struct pscn_ray ray = {{0.1, 0.2, -4}, {0, 0, beyond[k]}, 0, INFINITY};
-    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_INPUT);
+    assert_int_equal(pscn_nearest(ball.scene, 1, &ray, 0, &other, 0), PSCN_INPUT);
     ray = (struct pscn_ray){{0.1, beyond[k], -4}, {0, 0, 1}, 0, INFINITY};
-    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), beyond[k] < 1 ? PSCN_OK : PSCN_INPUT);
+    assert_int_equal(pscn_nearest(ball.scene, 1, &ray, 0, &other, 0), beyond[k] < 1 ? PSCN_OK : PSCN_INPUT);
   }
   for (int e = 0; e <= 320; e += 20) { /* from the end of the numbers */
     const struct pscn_ray ray = {{0.1, 0.2, -1e100}, {0, 0, ldexp(1, e)}, 0, INFINITY};
-    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    assert_int_equal(pscn_nearest(ball.scene, 1, &ray, 0, &other, 0), PSCN_OK);
     assert_int_equal(other.verdict, PSCN_HIT);
     assert_true(ldexp(other.t, e) == 1e100);
   }
 }
 
 /* An invalid ray, or one without a scene, has no answer, and this is written, too. */
-static void test_no_answer(void **state)
+TEST(test_no_answer)
 {
-  const struct rays *rays = *state;
-  struct pscn_ray all[] = {rays->ray[0], rays->ray[1], rays->ray[2], rays->ray[3],
-                           rays->ray[4], rays->ray[5], rays->ray[6]};
+  struct pscn_ray all[] = {ball.ray[0], ball.ray[1], ball.ray[2], ball.ray[3], ball.ray[4], ball.ray[5], ball.ray[6]};
   struct pscn_hit hits[7], hit;
   const struct pscn_hit none = {.t = INFINITY, .patch = PSCN_NO_PATCH, .verdict = PSCN_NO_ANSWER};
   struct pscn_hit missed = {.t = INFINITY, .patch = PSCN_NO_PATCH, .certain = 1};
@@ -273,51 +263,50 @@ static void test_no_answer(void **state)
   all[5].t_max = NAN;
   all[6].t_min = all[6].t_max = 1;
   memset(hits, 0xA5, sizeof hits);
-  assert_int_equal(pscn_nearest(rays->scene, 7, all, sizeof *all, hits, sizeof *hits), PSCN_INPUT);
-  assert_memory_equal(&hits[0], &rays->hit[0], sizeof hit);
+  assert_int_equal(pscn_nearest(ball.scene, 7, all, sizeof *all, hits, sizeof *hits), PSCN_INPUT);
+  assert_memory_equal(&hits[0], &ball.hit[0], sizeof hit);
   for (int k = 1; k < 6; k++) assert_memory_equal(&hits[k], &none, sizeof none);
   assert_memory_equal(&hits[6], &missed, sizeof missed);
-  assert_int_equal(pscn_occluded(rays->scene, 7, all, sizeof *all, verdicts, 1), PSCN_INPUT);
+  assert_int_equal(pscn_occluded(ball.scene, 7, all, sizeof *all, verdicts, 1), PSCN_INPUT);
   assert_int_equal(verdicts[5], PSCN_NO_ANSWER);
   assert_int_equal(verdicts[6], PSCN_MISS);
 
   struct pscn_scene *broken;
   assert_int_equal(pscn_scene_from_text("broken", "union {", 7, NULL, &broken), PSCN_INPUT);
   memset(hits, 0xA5, sizeof hits);
-  assert_int_equal(pscn_nearest(broken, 7, rays->ray, sizeof *all, hits, sizeof *hits), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(broken, 7, ball.ray, sizeof *all, hits, sizeof *hits), PSCN_USAGE);
   for (int k = 0; k < 7; k++) assert_memory_equal(&hits[k], &none, sizeof none);
-  assert_int_equal(pscn_nearest(NULL, 1, rays->ray, 0, &hit, 0), PSCN_USAGE);
-  assert_int_equal(pscn_nearest(NULL, 0, rays->ray, 0, &hit, 0), PSCN_USAGE);
-  assert_int_equal(pscn_nearest(rays->scene, 1, NULL, 0, &hit, 0), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(NULL, 1, ball.ray, 0, &hit, 0), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(NULL, 0, ball.ray, 0, &hit, 0), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(ball.scene, 1, NULL, 0, &hit, 0), PSCN_USAGE);
   assert_memory_equal(&hit, &none, sizeof none);
-  assert_int_equal(pscn_nearest(rays->scene, 1, rays->ray, 0, NULL, 0), PSCN_USAGE);
-  assert_int_equal(pscn_nearest(rays->scene, 0, NULL, 0, NULL, 0), PSCN_OK);
+  assert_int_equal(pscn_nearest(ball.scene, 1, ball.ray, 0, NULL, 0), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(ball.scene, 0, NULL, 0, NULL, 0), PSCN_OK);
   pscn_scene_free(broken);
 }
 
 /* A start that each hit's ray leaves it by, back the way it came; none for a miss. */
-static void leave_all(const struct rays *rays, double out[][3])
+static void leave_all(double out[][3])
 {
   for (int k = 0; k < COUNT; k++) {
-    const struct pscn_hit *hit = &rays->hit[k];
+    const struct pscn_hit *hit = &ball.hit[k];
     const bool is_hit = hit->verdict == PSCN_HIT;
-    const enum pscn_status status = pscn_leave(rays->scene, &rays->ray[k], hit, hit->normal, out[k]);
+    const enum pscn_status status = pscn_leave(ball.scene, &ball.ray[k], hit, hit->normal, out[k]);
     assert_int_equal(status, is_hit ? PSCN_OK : PSCN_USAGE);
     if (!is_hit) memset(out[k], 0, sizeof out[k]);
   }
 }
 
 /* With another arithmetic of the caller's, answers have the same bits, and that arithmetic is restored. */
-static void test_arithmetic(void **state)
+TEST(test_arithmetic)
 {
-  const struct rays *rays = *state;
   static struct pscn_hit hits[COUNT];
   static double left[2][COUNT][3];
   fenv_t before;
   assert_int_equal(fegetenv(&before), 0);
-  leave_all(rays, left[0]);
+  leave_all(left[0]);
   feclearexcept(FE_ALL_EXCEPT);
-  assert_int_equal(pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits), PSCN_OK);
+  assert_int_equal(pscn_nearest(ball.scene, COUNT, ball.ray, sizeof *ball.ray, hits, sizeof *hits), PSCN_OK);
   assert_int_equal(fetestexcept(FE_ALL_EXCEPT), 0);
 #if defined(__SSE2__)
   const unsigned control = _mm_getcsr() | 0x8040; /* subnormal numbers are flushed to zero, read and written */
@@ -326,8 +315,8 @@ static void test_arithmetic(void **state)
   assert_int_equal(fesetround(FE_UPWARD), 0);
   feclearexcept(FE_ALL_EXCEPT);
   const int traps_wanted = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW, asked = feenableexcept(traps_wanted);
-  const enum pscn_status status = pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits);
-  leave_all(rays, left[1]);
+  const enum pscn_status status = pscn_nearest(ball.scene, COUNT, ball.ray, sizeof *ball.ray, hits, sizeof *hits);
+  leave_all(left[1]);
   struct pscn_scene *scene = make_ball();
   const int round = fegetround(), raised = fetestexcept(FE_ALL_EXCEPT), traps = fegetexcept();
 #if defined(__SSE2__)
@@ -341,19 +330,18 @@ static void test_arithmetic(void **state)
   assert_int_equal(raised, 0);
   assert_int_equal(traps, asked < 0 ? 0 : traps_wanted); /* arm64 has none */
   assert_int_equal(status, PSCN_OK);
-  assert_memory_equal(hits, rays->hit, sizeof hits);
+  assert_memory_equal(hits, ball.hit, sizeof hits);
   assert_memory_equal(left[0], left[1], sizeof left[0]);
-  assert_int_equal(pscn_nearest(scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits), PSCN_OK);
-  assert_memory_equal(hits, rays->hit, sizeof hits);
+  assert_int_equal(pscn_nearest(scene, COUNT, ball.ray, sizeof *ball.ray, hits, sizeof *hits), PSCN_OK);
+  assert_memory_equal(hits, ball.hit, sizeof hits);
   pscn_scene_free(scene);
 }
 
 /* Points so near each other that arithmetic on 128 bits underflows, which libgcc reports to the x87. It leaves no flag
  * there, where the first trap that a caller enables would see it; and traps that the caller has set only there do not
  * fire. */
-static void test_underflow(void **state)
+TEST(test_underflow)
 {
-  (void)state;
   const double size = 1e-99;
   double net[4][4][3];
   struct pscn_scene *scene;
@@ -391,9 +379,8 @@ static void test_underflow(void **state)
 }
 
 /* `start previous` is for rays asked one after the other; here it is a cold start. */
-static void test_previous(void **state)
+TEST(test_previous)
 {
-  const struct rays *rays = *state;
   double points[BALL_PATCHES][4][4][3];
   static struct pscn_hit forwards[COUNT], backwards[COUNT];
   struct pscn_options options = PSCN_OPTIONS;
@@ -402,29 +389,12 @@ static void test_previous(void **state)
   ball_points(points);
   assert_int_equal(
     pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, &options, &scene), PSCN_OK);
-  assert_int_equal(pscn_nearest(scene, COUNT, rays->ray, sizeof *rays->ray, forwards, sizeof *forwards), PSCN_OK);
-  assert_int_equal(pscn_nearest(scene, COUNT, rays->ray + COUNT - 1, -(ptrdiff_t)sizeof *rays->ray,
-                                backwards + COUNT - 1, -(ptrdiff_t)sizeof *backwards),
+  assert_int_equal(pscn_nearest(scene, COUNT, ball.ray, sizeof *ball.ray, forwards, sizeof *forwards), PSCN_OK);
+  assert_int_equal(pscn_nearest(scene, COUNT, ball.ray + COUNT - 1, -(ptrdiff_t)sizeof *ball.ray, backwards + COUNT - 1,
+                                -(ptrdiff_t)sizeof *backwards),
                    PSCN_OK);
   assert_memory_equal(forwards, backwards, sizeof forwards);
   pscn_scene_free(scene);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_derivatives_far_away),
-    cmocka_unit_test(test_hits),
-    cmocka_unit_test(test_order_and_strides),
-    cmocka_unit_test(test_occluded),
-    cmocka_unit_test(test_occluded_end_of_work),
-    cmocka_unit_test(test_ranges),
-    cmocka_unit_test(test_leave_in_a_crease),
-    cmocka_unit_test(test_lengths),
-    cmocka_unit_test(test_no_answer),
-    cmocka_unit_test(test_arithmetic),
-    cmocka_unit_test(test_underflow),
-    cmocka_unit_test(test_previous),
-  };
-  return cmocka_run_group_tests(tests, ball_rays_setup, ball_rays_teardown);
-}
+int main(void) { return test_run_with_rays(); }

@@ -26,29 +26,28 @@ static char *ask_at_pole(const struct pscn_scene *scene)
 /* Again and again asks the shared scene, and builds, asks and frees its own one. Returns what went wrong. */
 static void *thread_run(void *context)
 {
-  const struct rays *rays = context;
+  (void)context;
   struct pscn_hit hits[COUNT];
-  char *wrong = ask_at_pole(rays->scene);
+  char *wrong = ask_at_pole(ball.scene);
   if (wrong) return wrong;
   for (int turn = 0; turn < TURNS; turn++) {
     memset(hits, 0, sizeof hits);
-    if (pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||
-        memcmp(hits, rays->hit, sizeof hits) != 0)
+    if (pscn_nearest(ball.scene, COUNT, ball.ray, sizeof *ball.ray, hits, sizeof *hits) != PSCN_OK ||
+        memcmp(hits, ball.hit, sizeof hits) != 0)
       return "the shared scene answers otherwise";
     struct pscn_hits counts[COUNT];
-    if (pscn_all(rays->scene, COUNT, rays->ray, sizeof *rays->ray, counts, sizeof *counts, hits, sizeof *hits, 1) !=
+    if (pscn_all(ball.scene, COUNT, ball.ray, sizeof *ball.ray, counts, sizeof *counts, hits, sizeof *hits, 1) !=
         PSCN_OK)
       return "all hits cannot be had";
     for (int n = 0; n < COUNT; n++) /* all members up to the normal */
-      if (memcmp(&hits[n], &rays->hit[n], offsetof(struct pscn_hit, normal)) != 0 ||
-          hits[n].patch != rays->hit[n].patch)
+      if (memcmp(&hits[n], &ball.hit[n], offsetof(struct pscn_hit, normal)) != 0 || hits[n].patch != ball.hit[n].patch)
         return "the first of all hits is not the nearest";
     struct pscn_scene *own;
     double points[BALL_PATCHES][4][4][3];
     ball_points(points);
     if (pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &own) != PSCN_OK ||
-        pscn_nearest(own, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||
-        memcmp(hits, rays->hit, sizeof hits) != 0)
+        pscn_nearest(own, COUNT, ball.ray, sizeof *ball.ray, hits, sizeof *hits) != PSCN_OK ||
+        memcmp(hits, ball.hit, sizeof hits) != 0)
       return "a scene of its own answers otherwise";
     pscn_scene_free(own);
     if (pscn_scene_from_text("wrong", "camera { loaction }", 19, NULL, &own) != PSCN_INPUT ||
@@ -59,7 +58,7 @@ static void *thread_run(void *context)
   return NULL;
 }
 
-static void test_threads(void **state)
+TEST(test_threads)
 {
   pthread_t threads[THREADS];
   pthread_attr_t attributes;
@@ -67,7 +66,7 @@ static void test_threads(void **state)
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   assert_int_equal(pthread_attr_setstacksize(&attributes, STACK), 0);
 #endif
-  for (int k = 0; k < THREADS; k++) assert_int_equal(pthread_create(&threads[k], &attributes, thread_run, *state), 0);
+  for (int k = 0; k < THREADS; k++) assert_int_equal(pthread_create(&threads[k], &attributes, thread_run, NULL), 0);
   for (int k = 0; k < THREADS; k++) {
     void *wrong;
     assert_int_equal(pthread_join(threads[k], &wrong), 0);
@@ -76,8 +75,4 @@ static void test_threads(void **state)
   assert_int_equal(pthread_attr_destroy(&attributes), 0);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_threads)};
-  return cmocka_run_group_tests(tests, ball_rays_setup, ball_rays_teardown);
-}
+int main(void) { return test_run_with_rays(); }
