@@ -8,8 +8,9 @@
 
 const char *family_name(enum family family)
 {
-  static const char *const names[FAMILIES] = {"0 decades", "10 decades", "20 decades", "60 decades", "clusters",
-                                              "multiple",  "chebyshev",  "mignotte",   "wilkinson",  "sparse"};
+  static const char *const names[FAMILIES + 1] = {"0 decades", "10 decades", "20 decades", "60 decades",
+                                                  "clusters",  "multiple",   "chebyshev",  "mignotte",
+                                                  "wilkinson", "sparse",     "corpus"};
   return names[family];
 }
 

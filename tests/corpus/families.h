@@ -19,6 +19,7 @@ enum family {
   FAMILIES
 };
 
+/* "corpus" for FAMILIES. */
 const char *family_name(enum family family);
 
 /* Writes the coefficients of a polynomial of the family, c[k] of x^k, finite and not all zero. Returns its degree,

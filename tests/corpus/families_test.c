@@ -1,5 +1,5 @@
-/* No root is lost in silence: ten families of hard polynomials, every solver in both forms, both bases, against
- * guaranteed roots.
+/* No root is lost in silence: ten families of hard polynomials, and those of the corpus, every solver in both forms,
+ * both bases, against guaranteed roots.
  *
  * Of a solver of all roots: the true roots, each as often as it counts, can be paired with the answers so that each
  * lies within its answer's radius, or its answer is said to be unknown, or the answer says that as many more are
@@ -13,6 +13,7 @@
 
 #include "algebra/solver.h"
 #include "cmocka_test.h"
+#include "corpus/corpus.h"
 #include "corpus/exact_roots.h"
 #include "corpus/families.h"
 #include "effort.h"
@@ -157,5 +158,9 @@ TEST(no_root_is_lost)
                   family_name((enum family)family), polynomials, count,
                   100.0 * (double)said_unknown / (double)(answered + 1));
   }
+  static struct corpus_entry entries[CORPUS_MAX];
+  trial.family = FAMILIES;
+  trial.number = corpus_read(entries);
+  while (trial.number-- > 0) wrong += try_polynomial(&trial, entries[trial.number].degree, entries[trial.number].c);
   assert_int_equal(wrong, 0);
 }

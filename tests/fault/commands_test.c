@@ -363,6 +363,7 @@ static void test_chart(void **state)
 {
   (void)state;
   const char *const arguments[] = {"chart",      PSCN_SOURCE_DIR "/scenes/bent.pscn",
+                                   "--solver",   "bernstein",
                                    "--quiet",    "--quick",
                                    "--size",     "1x1",
                                    "--rays",     "1",
