@@ -89,7 +89,7 @@ static void one_by_one(struct set_up *s)
   assert_true(followed > 0 || s->kind == WORLD_DEGENERATE || s->kind == WORLD_FLAT);
 }
 
-TEST(they_are_the_nearest_one_by_one) { on_all_stages(SEED, SCENES, one_by_one); }
+TEST(they_are_the_nearest_one_by_one) { on_all_stages(SEED, SCENES, NULL, one_by_one); }
 
 enum { FOLDED_RAYS = 400 };
 
@@ -190,7 +190,7 @@ static void parts(struct set_up *s)
   assert_int_equal(wrong, 0);
 }
 
-TEST(parts_of_a_ray_have_theirs) { on_all_stages(SEED + 1, SCENES, parts); }
+TEST(parts_of_a_ray_have_theirs) { on_all_stages(SEED + 1, SCENES, NULL, parts); }
 
 struct alone {
   const struct kept *lists; /* of each ray alone */
@@ -215,7 +215,7 @@ static void companions(struct set_up *s)
   assert_int_equal(alone.wrong, 0);
 }
 
-TEST(lists_do_not_depend_on_companions) { on_all_stages(SEED + 2, SCENES, companions); }
+TEST(lists_do_not_depend_on_companions) { on_all_stages(SEED + 2, SCENES, NULL, companions); }
 
 /* Where the answer is certain, every instruction set counts the same hits and finds them on the same patches. */
 static void kernels(struct set_up *s)
@@ -240,7 +240,7 @@ static void kernels(struct set_up *s)
   assert_int_equal(wrong, 0);
 }
 
-TEST(kernels_agree) { on_all_stages(SEED + 3, SCENES, kernels); }
+TEST(kernels_agree) { on_all_stages(SEED + 3, SCENES, NULL, kernels); }
 
 /* A stack of sheets, the lowest one first: a ray through them has one hit on each, in order. A ray exactly through
  * their corners, four to a layer, has one hit a layer, on the first of the four. */

@@ -1,27 +1,14 @@
-/* Answers stay the same if the scene is scaled, turned or cut differently, if the ray is given differently, and if
- * another method finds the hit. */
+/* Answers stay the same if the scene is scaled or turned, and if the ray is given differently. */
 #include <math.h>
 #include <string.h>
 
 #include "cmocka_test.h"
-#include "geometry/vector.h"
 #include "property/world.h"
 
-enum { SEED = 20240511, SCENES = 2, RAYS = 64 };
+enum { SEED = 20240511, RAYS = 64 };
 
-/* Hits computed in two ways differ by the rounding of the plane polynomials, divided by the sine of the angle at
- * which the ray meets the surface: some hundred units roundoff of the scene's size. */
+/* How far apart answers may be that are both grazing, relative: some hundred roundings. */
 #define SAME_T 1e-13
-
-/* Whether two answers to rays of the same geometry agree as far as both are certain. Counts the certain hits. */
-static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b, int *hits)
-{
-  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
-  if (a->patch == HIT_NONE || b->patch == HIT_NONE) return a->patch == b->patch;
-  const double length = vector_length(ray->direction), steep = fabs(vector_dot(ray->direction, a->normal)) / length;
-  ++*hits;
-  return fabs(a->t - b->t) * steep <= SAME_T * fmax(a->t, 1 / length);
-}
 
 /* Answers that no traversal changes: they are the same to the last bit. Of a pole met exactly, any of the patches
  * that meet there may be answered, at a place within the last bits: at the limits of the hierarchy's single
@@ -33,8 +20,8 @@ static bool same_or_grazing(const struct hit *a, const struct hit *b)
   return a->patch != HIT_NONE && b->patch != HIT_NONE && fabs(a->t - b->t) <= SAME_T * a->t;
 }
 
-/* Exponents of common scenes, then far beyond the range of a float, then nearly all that a double holds. */
-static const int scene_exponents[] = {20, -20, 100, -100, 200, -200, 500, -500, 999, -880};
+/* Exponents of common scenes, then far beyond the range of a float, up to what is read. */
+static const int scene_exponents[] = {20, -20, 100, -100, 300, -300};
 enum { EXPONENTS = sizeof scene_exponents / sizeof *scene_exponents, EXPONENTS_OF_FLOAT = 4 };
 
 /* Scaling by a power of two changes no digit of any answer. */
@@ -144,48 +131,6 @@ TEST(the_length_of_the_direction_does_not_matter)
   }
   assert_int_equal(wrong, 0);
   assert_true(hits > WORLD_KINDS * RAYS / 4);
-}
-
-/* The answer does not depend on how a patch is cut into leaves, nor on the method that finds the roots. */
-TEST(cuts_and_methods_answer_alike)
-{
-  struct random random = {SEED + 5};
-  static const int splits[] = {1, 2, 3, 5, 7, 10, 49, 64};
-  world_net nets[WORLD_MAX];
-  int wrong = 0, hits = 0;
-  for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    struct world first;
-    const size_t count = world_fill((enum world_kind)kind, &random, nets);
-    world_open(&first, nets, count, NULL);
-    struct ray rays[RAYS / 2];
-    struct hit want[RAYS / 2];
-    for (int n = 0; n < RAYS / 2; n++) {
-      rays[n] = world_ray(&random, nets, count, n % RAY_KINDS);
-      want[n] = world_closest(&first, &rays[n]);
-    }
-    world_close(&first);
-    for (int way = 0; way < 8 + 3 * (int)solver_count(); way += 1 + kind % 2) {
-      struct method options;
-      method_default(way < 8 ? solver_at(0) : solver_at((size_t)(way - 8) / 3), &options);
-      if (way < 8) options.split = splits[way];
-      if (way >= 8 && way % 3 == 1) options.resultant = RESULTANT_SYLVESTER;
-      if (way >= 8 && way % 3 == 2) options.back_substitution = BACK_SUBSTITUTION_EUCLID;
-      struct world world;
-      world_open(&world, nets, count, &options);
-      for (int n = 0; n < RAYS / 2; n++) {
-        if (n % RAY_KINDS == 5) continue;
-        const struct hit got = world_closest(&world, &rays[n]);
-        if (agree(&rays[n], &want[n], &got, &hits)) continue;
-        if (wrong++ < 8) {
-          print_message("way %d (%s, split %d)\n", way, options.roots.solver->name, options.split);
-          world_print_case("method", kind, &rays[n], &want[n], &got);
-        }
-      }
-      world_close(&world);
-    }
-  }
-  assert_int_equal(wrong, 0);
-  assert_true(hits > WORLD_KINDS * 8 * RAYS / 4);
 }
 
 TEST(warm_starts_are_reproducible)

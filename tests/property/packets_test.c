@@ -5,9 +5,10 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "method_of.h"
 #include "property/world.h"
 
-enum { SEED = 20240510, SCENES = 1 };
+enum { SEED = 20240510 };
 
 /* The answers to the rays one by one; valid until the next call. */
 static const struct hit *answers_alone(const struct set_up *s)
@@ -42,7 +43,15 @@ static void companions(struct set_up *s)
   assert_int_equal(alone.wrong, 0);
 }
 
-TEST(answers_do_not_depend_on_companions) { on_all_stages(SEED, SCENES, companions); }
+TEST(answers_do_not_depend_on_companions)
+{
+  static const char *const methods[] = {"bernstein", "aberth { split 1 }", "newton { split 2 }", "laguerre { split 1 }",
+                                        "durand_kerner { split 2 }"};
+  for (size_t n = 0; n < sizeof methods / sizeof methods[0]; n++) {
+    const struct method method = method_of(methods[n]);
+    on_all_stages(SEED + 10 * n, 1, &method, companions);
+  }
+}
 
 /* Rays in all directions, in a scene with so many leaves that each ray goes through the hierarchy separately. */
 TEST(rays_apart_do_not_depend_on_companions)
@@ -50,10 +59,8 @@ TEST(rays_apart_do_not_depend_on_companions)
   static world_net nets[WORLD_MAX];
   struct random random = {SEED + 4};
   struct world world;
-  struct method options;
+  const struct method options = method_of("bernstein { split 64 }");
   int wrong = 0, hits = 0;
-  method_default(solver_find("bernstein", 9), &options);
-  options.split = 64;
   const size_t count = world_fill(WORLD_GRID, &random, nets);
   world_open(&world, nets, count, &options);
   assert_true(world.tracer->model->leaf_count >= 1 << 14);
@@ -83,11 +90,9 @@ TEST(exhausted_rays_do_not_depend_on_companions)
   enum { HEAP = 20000, RAYS = 120, FEW = 3, BUDGET = 3 << 13 };
   struct random random = {SEED + 5};
   struct world world;
-  struct method options;
+  const struct method options = method_of("bernstein { split 2 }");
   struct ray rays[RAYS];
   int wrong = 0, ended = 0;
-  method_default(solver_find("bernstein", 9), &options);
-  options.split = 2;
   world_net *nets = malloc(HEAP * sizeof *nets);
   assert_non_null(nets);
   for (size_t p = 0; p < HEAP; p++)
@@ -126,9 +131,7 @@ TEST(rays_through_a_crowded_corner_do_not_depend_on_companions)
   static world_net nets[CARDS];
   struct random random = {SEED + 6};
   struct world world;
-  struct method options;
   int wrong = 0, certain = 0;
-  method_default(solver_find("bernstein", 9), &options);
   for (size_t p = 0; p < CARDS; p++) {
     for (int k = 0; k < 3; k++) {
       const double a = random_between(&random, -1, 1), b = random_between(&random, -1, 1),
@@ -136,7 +139,7 @@ TEST(rays_through_a_crowded_corner_do_not_depend_on_companions)
       for (int n = 0; n < 16; n++) nets[p][n / 4][n % 4][k] = (n / 4 * a + n % 4 * b) / 3 + n / 4 * (n % 4) * c / 9;
     }
   }
-  world_open(&world, nets, CARDS, &options);
+  world_open(&world, nets, CARDS, NULL);
   for (int n = 0; n < RAYS; n += FEW) {
     struct ray rays[FEW];
     struct hit together[FEW];
@@ -195,7 +198,7 @@ static void shuffled(struct set_up *s)
   assert_true(tied < STAGE_RAYS * 2 / 3); /* flat patches, which meet at borders and lie on each other */
 }
 
-TEST(answers_do_not_depend_on_the_order_of_patches) { on_all_stages(SEED + 3, SCENES, shuffled); }
+TEST(answers_do_not_depend_on_the_order_of_patches) { on_all_stages(SEED + 3, 1, NULL, shuffled); }
 
 enum { SHEETS = 1200 };
 

@@ -7,7 +7,7 @@
 #include "reference/reference.h"
 #include "worse.h"
 
-enum { SEED = 20261123, SCENES = 12, PACKETS = 40, RAYS = PACKET_SIZE };
+enum { SEED = 20261123, SCENES = 6, PACKETS = 40, RAYS = PACKET_SIZE };
 
 /* How near to the surface rays start, in powers of two of a scene of size 1. Nearer than NEAR, a patch's own digits
  * no longer determine t, and t is rounded only once. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "copied.h"
 #include "intersect/model.h"
 #include "property/world.h"
 #include "render/threads.h"
@@ -28,7 +29,7 @@ static void trial_open(struct trial *trial, size_t side, size_t copies, int spli
   method_default(solver_at(0), &trial->solvers[0]);
   trial->solvers[1] = trial->solvers[0], trial->solvers[1].split = split;
   scene->solvers = trial->solvers;
-  scene->patch_count = count * (copies ? copies : 1);
+  scene->patch_count = count;
   scene->patches = calloc(scene->patch_count, sizeof *scene->patches);
   double *height = calloc(points * points, sizeof *height);
   assert_non_null(scene->patches);
@@ -47,28 +48,18 @@ static void trial_open(struct trial *trial, size_t side, size_t copies, int spli
   free(height);
   if (copies == 0) return;
   trial->object = (struct scene_object){calloc(count, sizeof *trial->object.P), count};
-  scene->objects = &trial->object, scene->object_count = 1;
-  scene->copies = calloc(copies, sizeof *scene->copies), scene->copy_count = copies;
   assert_non_null(trial->object.P);
-  assert_non_null(scene->copies);
   for (size_t p = 0; p < count; p++) memcpy(trial->object.P[p], scene->patches[p].P, sizeof trial->object.P[p]);
-  for (size_t c = 0; c < copies; c++) {
-    struct scene_copy *copy = &scene->copies[c];
-    copy->first_patch = c * count;
-    for (int k = 0; k < 3; k++) copy->A[k][k] = 1;
-    copy->b[2] = (double)c;
-    for (size_t p = 0; p < count; p++) {
-      scene->patches[copy->first_patch + p] = scene->patches[p];
-      for (int n = 0; n < 16; n++)
-        scene->patches[copy->first_patch + p].P[n / 4][n % 4][2] = trial->object.P[p][n / 4][n % 4][2] + copy->b[2];
-    }
-  }
+  free(scene->patches);
+  copied_open(scene, &trial->object, copies);
+  for (size_t c = 0; c < copies; c++) scene->copies[c].b[2] = (double)c;
+  copied_place(scene);
+  for (size_t p = 0; p < scene->patch_count; p++) scene->patches[p].solver = p % count % 5 == 0;
 }
 
 static void trial_close(struct trial *trial)
 {
-  free(trial->scene.patches);
-  free(trial->scene.copies);
+  copied_close(&trial->scene);
   free(trial->object.P);
 }
 

@@ -5,12 +5,14 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "copied.h"
 #include "geometry/surfaces.h"
-#include "net_order.h"
 #include "intersect/intersect.h"
+#include "method_of.h"
+#include "net_order.h"
 #include "property/world.h"
 
-enum { SEED = 20261122, RAYS = 768, TIMES = 4, MOST = TIMES * WORLD_MAX, FAR = 70000, COPIES = 300 };
+enum { SEED = 20261122, RAYS = 384, TIMES = 4, MOST = TIMES * WORLD_MAX, FAR = 70000, COPIES = 300 };
 
 static bool equal(world_net P, world_net Q)
 {
@@ -145,12 +147,13 @@ static void compare(const struct pair *pair, int kind, struct random *random, wo
   assert_true(hits > RAYS / 16 && certain > RAYS / 4);
 }
 
-static void on_each_kind(size_t far, struct method solvers[], size_t solver_count)
+/* On every `step`-th kind of scene. */
+static void on_kinds(int step, size_t far, struct method solvers[], size_t solver_count)
 {
   static struct pair pair;
   static world_net nets[WORLD_MAX];
   struct random random = {SEED};
-  for (int kind = 0; kind < WORLD_KINDS; kind++) {
+  for (int kind = 0; kind < WORLD_KINDS; kind += step) {
     const size_t count = world_fill((enum world_kind)kind, &random, nets);
     pair_open(&pair, &random, nets, count, far, solvers, solver_count);
     compare(&pair, kind, &random, nets, count);
@@ -160,78 +163,57 @@ static void on_each_kind(size_t far, struct method solvers[], size_t solver_coun
 
 TEST(of_one_solver)
 {
-  struct method solver;
-  method_default(solver_at(0), &solver);
-  on_each_kind(0, &solver, 1);
+  struct method solver = method_of("bernstein");
+  on_kinds(1, 0, &solver, 1);
 }
 
 TEST(of_several)
 {
-  static const char *const names[] = {"bernstein", "newton", "aberth", "bernstein"};
-  struct method solvers[4];
-  for (int k = 0; k < 4; k++) method_default(solver_find(names[k], strlen(names[k])), &solvers[k]);
-  solvers[1].split = 3, solvers[3].split = 1;
-  on_each_kind(0, solvers, 4);
+  struct method solvers[] = {method_of("bernstein"), method_of("newton { split 3 }"), method_of("aberth"),
+                             method_of("bernstein { split 1 }")};
+  on_kinds(1, 0, solvers, 4);
 }
 
 TEST(that_are_not_kept)
 {
-  struct method solver;
-  method_default(solver_at(0), &solver);
-  solver.split = 1; /* in both scenes */
-  on_each_kind(FAR, &solver, 1);
+  struct method solver = method_of("bernstein { split 1 }"); /* in both scenes */
+  on_kinds(3, FAR, &solver, 1);                              /* preparing them takes long */
 }
 
-/* Copies of an object, one of whose patches lies on another; half of the copies lie on other copies. */
-struct copies {
-  struct scene_object object;
-  struct scene scene;
-};
-
-static void copies_fill(struct copies *copies, world_net nets[], size_t count, bool twice, struct method *solver)
+/* Copies of an object, one of whose patches lies on another if `twice`; half of the copies then lie on other copies. */
+static void copies_fill(struct scene *scene, struct scene_object *object, bool twice)
 {
   struct random random = {SEED};
-  struct scene *scene = &copies->scene;
-  const size_t patches = count + twice;
-  copies->object = (struct scene_object){nets, patches};
-  *scene = (struct scene){
-    .solvers = solver, .solver_count = 1, .objects = &copies->object, .object_count = 1, .patch_count = 0};
-  scene->copies = calloc(2 * COPIES, sizeof *scene->copies);
-  scene->patches = calloc(2 * COPIES * patches, sizeof *scene->patches);
-  assert_non_null(scene->copies), assert_non_null(scene->patches);
-  for (size_t c = 0; c < COPIES; c++) {
+  copied_open(scene, object, twice ? COPIES * 3 / 2 : COPIES);
+  for (size_t c = 0, place = 0; c < scene->copy_count; place++) {
     double at[3];
     for (int k = 0; k < 3; k++) at[k] = (double)(random_bits(&random) % 20) * 0.5;
-    for (size_t n = 0; n <= (size_t)(twice && c % 2); n++) {
-      struct scene_copy *copy = &scene->copies[scene->copy_count++];
-      *copy = (struct scene_copy){.first_patch = scene->patch_count, .A = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-      memcpy(copy->b, at, sizeof at);
-      for (size_t p = 0; p < patches; p++, scene->patch_count++)
-        for (int e = 0; e < 48; e++)
-          scene->patches[scene->patch_count].P[e / 12][e / 3 % 4][e % 3] = nets[p][e / 12][e / 3 % 4][e % 3] +
-                                                                           at[e % 3];
-    }
+    for (size_t n = 0; n <= (size_t)(twice && place % 2); n++) memcpy(scene->copies[c++].b, at, sizeof at);
   }
+  copied_place(scene);
 }
 
 TEST(that_are_copies)
 {
   static world_net nets[WORLD_MAX];
   struct random random = {SEED};
-  struct copies copies[2];
+  struct scene_object objects[2];
   struct pair pair;
-  struct method solver;
-  method_default(solver_at(0), &solver);
+  struct method solver = method_of("bernstein");
   const size_t count = world_fill(WORLD_DOME, &random, nets);
   in_order(nets[1], 5, nets[count]);
-  for (int k = 0; k < 2; k++) copies_fill(&copies[k], nets, count, k == 0, &solver), pair.scene[k] = copies[k].scene;
+  for (int k = 0; k < 2; k++) {
+    objects[k] = (struct scene_object){nets, k == 0 ? count + 1 : count};
+    pair.scene[k] = (struct scene){.solvers = &solver, .solver_count = 1};
+    copies_fill(&pair.scene[k], &objects[k], k == 0);
+  }
   pair_prepare(&pair);
   for (int k = 0; k < 2; k++) assert_true(pair.tracer[k]->model->copy_count > COPIES / 2);
   size_t hits = 0;
   for (int n = 0; n < RAYS; n++) {
     struct ray ray = world_ray(&random, nets, count, n % RAY_KINDS);
     struct hit hit[2];
-    const struct scene_copy *copy = &copies[0].scene.copies[random_bits(&random) % copies[0].scene.copy_count];
+    const struct scene_copy *copy = &pair.scene[0].copies[random_bits(&random) % pair.scene[0].copy_count];
     for (int k = 0; k < 3; k++) ray.origin[k] += copy->b[k];
     for (int k = 0; k < 2; k++) tracer_closest(pair.tracer[k], 1, &ray, &hit[k]);
     if (hit[0].patch != HIT_NONE) hits++, hit[0].patch %= (uint32_t)count + 1;
@@ -240,7 +222,7 @@ TEST(that_are_copies)
   }
   print_message("%zu hits\n", hits);
   assert_true(hits > RAYS / 2);
-  for (int k = 0; k < 2; k++) free(copies[k].scene.copies);
+  for (int k = 0; k < 2; k++) free(pair.scene[k].copies);
   pair_close(&pair);
 }
 

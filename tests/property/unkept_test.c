@@ -11,6 +11,7 @@
 #include "cmocka_test.h"
 #include "intersect/intersect.h"
 #include "language/language.h"
+#include "method_of.h"
 #include "property/world.h"
 
 enum { SEED = 20261122, RAYS = 400, MANY = 70000 };
@@ -68,8 +69,10 @@ static int compare(int kind, struct tracer *const tracers[2], struct random *ran
       hits += asked.hit[0][l].patch != HIT_NONE;
       assert_same_hit("kept or not", kind, &asked.rays[l], &asked.hit[0][l], &asked.hit[1][l]);
       assert_int_equal(asked.occluded[0][l], asked.occluded[1][l]);
-      assert_int_equal(kept->count, unkept->count);
       assert_int_equal(kept->certainty, unkept->certainty);
+      /* what a list holds that is not certain also depends on the work that the boxes of others took */
+      if (kept->certainty != CERTAINTY_CERTAIN) continue;
+      assert_int_equal(kept->count, unkept->count);
       for (size_t h = 0; h < kept->count; h++)
         assert_same_hit("kept or not, of all", kind, &asked.rays[l], &kept->hits[h], &unkept->hits[h]);
     }
@@ -81,14 +84,16 @@ static void answers_are_the_same(void **state)
 {
   static world_net nets[WORLD_MAX];
   struct random random = {SEED};
-  static const char *const solvers[] = {"bernstein", "aberth", "newton"};
+  static const struct {
+    enum world_kind kind;
+    const char *solver;
+  } ways[] = {{WORLD_GRID, "bernstein { split 2 }"}, {WORLD_WILD, "aberth { split 1 }"}};
   (void)state;
-  for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    struct method solver;
+  for (size_t n = 0; n < sizeof ways / sizeof ways[0]; n++) {
+    const int kind = (int)ways[n].kind;
+    struct method solver = method_of(ways[n].solver);
     struct side sides[2];
-    const size_t count = world_fill((enum world_kind)kind, &random, nets);
-    method_default(solver_find(solvers[kind % 3], strlen(solvers[kind % 3])), &solver);
-    solver.split = kind % 4 == 0 ? 2 : 1;
+    const size_t count = world_fill(ways[n].kind, &random, nets);
     for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY, kind % 2);
     struct tracer anew; /* remembers no leaves, unlike the other one, and makes each anew */
     tracer_begin(sides[1].intersector, &anew);

@@ -189,7 +189,7 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
   return ray;
 }
 
-void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage))
+void on_all_stages(uint64_t seed, int scenes, const struct method *options, void (*body)(struct set_up *stage))
 {
   static struct set_up stage;
   static world_net nets[WORLD_MAX];
@@ -199,7 +199,7 @@ void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage)
       struct world world;
       stage.kind = kind, stage.random = &random, stage.world = &world, stage.nets = nets;
       stage.count = world_fill((enum world_kind)kind, &random, nets);
-      world_open(&world, nets, stage.count, NULL);
+      world_open(&world, nets, stage.count, options);
       for (int n = 0; n < STAGE_RAYS; n++) stage.rays[n] = world_ray(&random, nets, stage.count, n % RAY_KINDS);
       body(&stage);
       world_close(&world);

@@ -58,8 +58,8 @@ struct set_up {
   struct ray rays[STAGE_RAYS];
 };
 
-/* Calls `body` for `scenes` scenes of each kind, one after the other. */
-void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage));
+/* Calls `body` for `scenes` scenes of each kind, one after the other; options == NULL means the default. */
+void on_all_stages(uint64_t seed, int scenes, const struct method *options, void (*body)(struct set_up *stage));
 
 /* Passes the rays of the stage to `ask` in packets: in their order, shuffled, and shuffled in packets of every size.
  * `number` holds the indices of a packet's rays. */
