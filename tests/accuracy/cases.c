@@ -15,9 +15,6 @@
 
 #include "accuracy/certificate.h"
 #include "accuracy/class_tests.h"
-#include "accuracy/exact.h"
-#include "accuracy/lists.h"
-#include "accuracy/trial.h"
 #include "cmocka_test.h"
 #include "geometry/vector.h"
 
@@ -59,12 +56,12 @@ static bool faces(const char *text, const double normal[3])
 
 /* Whether the list of all hits is right, and there are as many as in `count`, if that is given; if list and nearest hit
  * are certain, the first must be the nearest. */
-static bool all_good(const struct trial *trial, const struct ray *ray, const struct hit *nearest,
-                     struct list_truth *truth, const char *count)
+static bool all_good(const struct trial *trial, struct certifier *certifier, const struct ray *ray,
+                     const struct hit *nearest, const char *count)
 {
   struct hit_list list;
   assert_int_equal(tracer_all(trial->tracer, 1, ray, &list), STATUS_OK);
-  if (list_judge(&list, truth) > LIST_UNDECIDED) return false;
+  if (certify_list(certifier, ray, &list) > LIST_UNDECIDED) return false;
   if (list.certainty == CERTAINTY_CERTAIN && nearest->certainty == CERTAINTY_CERTAIN &&
       (list.count > 0 ? list.hits[0].patch : HIT_NONE) != nearest->patch)
     return false;
@@ -85,7 +82,6 @@ static bool as_said(const char *path, const struct hit *hit)
 /* How many answers are wrong: by the case's own solver, and by those of all classes, of which the file says nothing. */
 static int wrong_answers(const char *path)
 {
-  static struct list_truth truth;
   char solver[LINE_SIZE], text[LINE_SIZE], from[LINE_SIZE], to[LINE_SIZE], count[LINE_SIZE];
   header(path, "solver", solver), header(path, "ray", text), header(path, "from", from), header(path, "to", to);
   header(path, "all", count);
@@ -99,20 +95,18 @@ static int wrong_answers(const char *path)
   int wrong = 0;
   trial_of_scene(&own, scene);
   certifier_create(&certifier, scene, own.reference);
-  list_truth_find(scene, own.reference, &ray, &truth);
   const int forms = scene->copy_count > 0 ? 0 : CLASS_FORMS; /* preparing many copies takes long */
   for (int m = -1; m < forms; m++) {
     struct trial other;
-    struct method method;
     struct hit hit;
     struct certificate certificate;
-    if (m >= 0) class_method(&class_forms[m], &method), trial_create_beside(&other, &own, &method);
+    if (m >= 0) trial_create_beside(&other, &own, class_forms[m]);
     const struct trial *trial = m < 0 ? &own : &other;
     tracer_closest(trial->tracer, 1, &ray, &hit);
     certify(&certifier, &ray, &hit, &certificate);
-    const bool all = all_good(trial, &ray, &hit, &truth, m < 0 ? count : "");
+    const bool all = all_good(trial, &certifier, &ray, &hit, m < 0 ? count : "");
     if (!all || certificate.finding > FINDING_UNDECIDED || (m < 0 && !as_said(path, &hit)))
-      wrong++, printf("%s, %s:%s %s, %s\n", strrchr(path, '/') + 1, m < 0 ? "its own solver" : class_forms[m].solver,
+      wrong++, printf("%s, %s:%s %s, %s\n", strrchr(path, '/') + 1, m < 0 ? "its own solver" : class_forms[m],
                       all ? "" : " not all, a wrong one, or grazing;",
                       hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[certificate.finding]);
     if (m >= 0) trial_destroy(&other);

@@ -21,7 +21,7 @@
 /* The square of a normal's length is 1 up to some roundings. */
 #define UNIT_NORMAL 0x1p-48
 
-/* The allowed error of U and V of a certain hit, in floors. */
+/* The allowed error of U and V of a certain hit inside a patch, in floors. */
 #define PLACE_FLOORS 16
 
 /* How far the place of a certain hit may be from the ray, as a line, in roundings of the patch's extent. Those of U and
@@ -381,4 +381,83 @@ void certify(struct certifier *certifier, const struct ray *ray, const struct hi
   out->boxes = truth->boxes;
   if (hit->patch != HIT_NONE && out->finding <= FINDING_UNDECIDED && !surface_good(&j)) out->finding = FINDING_SURFACE;
   truth->judged = true, truth->hit = *hit, truth->certificate = *out;
+}
+
+/* ---- all hits ---- */
+
+const char *const list_finding_names[LIST_FINDINGS] = {"right",    "undecided",        "lost",
+                                                       "invented", "lost on a border", "out of order"};
+
+/* The allowed error of a hit's t, in floors. Next to a tangency floors are only of the first order; roots nearer to
+ * each other than this are told apart by their order. */
+#define LIST_FLOORS 16
+
+/* The parameter is the nearest double to a root's. A root that 113 bits cannot tell from a border counts as a hit on
+ * it, of the first of the patches that share it, although it may be in the other one. */
+#define ON_BORDER 0x1p-90
+
+static bool on_border(double u, double v) { return fmin(u, v) <= ON_BORDER || fmax(u, v) >= 1; }
+
+/* Whether a hit may be at the place of a root. Any place will do if the root is on a border, where others may be the
+ * same point, or if the floors are NaN, because the patch is singular there. */
+static bool same_place(const struct hit *hit, const struct truth_root *root, const struct facts_floor *floor)
+{
+  return on_border(root->at.u, root->at.v) || !(fabs(hit->u - root->at.u) > PLACE_FLOORS * (floor->u + DOUBLE_UNIT) ||
+                                                fabs(hit->v - root->at.v) > PLACE_FLOORS * (floor->v + DOUBLE_UNIT));
+}
+
+/* The root that a hit is: the nearest one not met yet, of the hit's patch, or on a border if the hit is. NULL if none
+ * is near enough. */
+static struct truth_root *root_of(struct certifier *certifier, const struct hit *hit)
+{
+  struct truth_root *best = NULL;
+  double least = INFINITY;
+  for (size_t k = 0; k < certifier->truth.count; k++) {
+    struct truth_root *root = &certifier->truth.root[k];
+    const bool own = root->patch == hit->patch;
+    if (root->met || !root->at.proven) continue;
+    const struct facts_floor *floor = floor_of(certifier, root);
+    if (!(fabs(root->at.t - hit->t) <= LIST_FLOORS * floor->t)) continue;
+    if (own ? !same_place(hit, root, floor) : !(on_border(hit->u, hit->v) && on_border(root->at.u, root->at.v)))
+      continue;
+    /* Of two that t cannot tell apart, takes the one whose parameters are nearer. */
+    const double aside = own ? fmax(fabs(root->at.u - hit->u), fabs(root->at.v - hit->v)) : 1;
+    if (aside < least) best = root, least = aside;
+  }
+  return best;
+}
+
+/* Whether some hit of the list is at the root's t. */
+static bool any_at(const struct hit_list *list, const struct truth_root *root)
+{
+  for (size_t n = 0; n < list->count; n++)
+    if (fabs(list->hits[n].t - root->at.t) <= LIST_FLOORS * root->floor.t) return true;
+  return false;
+}
+
+enum list_finding certify_list(struct certifier *certifier, const struct ray *ray, const struct hit_list *list)
+{
+  struct truth *truth = &certifier->truth;
+  bool doubt = false;
+  find_truth(certifier, ray, ray->t_max);
+  for (size_t k = 0; k < truth->count; k++) {
+    truth->root[k].met = false, doubt |= !truth->root[k].at.proven;
+    floor_of(certifier, &truth->root[k]);
+  }
+  for (size_t k = 0; k < list->count; k++) {
+    const struct hit *hit = &list->hits[k];
+    if (k > 0 && !(hit[-1].t <= hit->t)) return LIST_ORDER;
+    if (hit->certainty != CERTAINTY_CERTAIN) continue;
+    struct truth_root *root = root_of(certifier, hit);
+    if (root) root->met = true;
+    else if (!doubt) return LIST_INVENTED;
+  }
+  if (list->certainty != CERTAINTY_CERTAIN) return LIST_RIGHT;
+  for (size_t k = 0; k < truth->count; k++) {
+    const struct truth_root *root = &truth->root[k];
+    if (!root->at.proven || root->met) continue;
+    if (!on_border(root->at.u, root->at.v)) return LIST_LOST;
+    if (!any_at(list, root)) return LIST_BORDER_LOST;
+  }
+  return doubt ? LIST_UNDECIDED : LIST_RIGHT;
 }

@@ -1,11 +1,14 @@
-/* Proves or refutes answers of the intersector, by the roots that exact.h finds.
+/* Proves or refutes answers of the intersector, by the roots that exact.h finds on each patch.
  *
  * certain hit   proven if a root is at T, and none before it; refuted if no root is at T, or a proven one before it.
  *               At T: within CERTIFICATE_FLOORS of what one rounding of each input, or of the patch's extent, moves it
  * certain miss  proven if there is no root, refuted if there is one
  * grazing       refuted if it loses a proven root: one before T, or any for a miss. A hit must be as near to ray and
  *               patch as TRIAL_NEAR in trial.h says
- * undecided     what exact.h left undecided matters */
+ * undecided     what exact.h left undecided matters
+ *
+ * A list of all hits may not be out of order. A certain hit, in any list, must be a root: by its t, and inside a patch by
+ * its u and v. A certain list must have a hit for each root inside a patch, and one at each point of a border. */
 #ifndef TESTS_ACCURACY_CERTIFICATE_H
 #define TESTS_ACCURACY_CERTIFICATE_H
 
@@ -32,6 +35,18 @@ enum finding {
 
 extern const char *const finding_names[FINDINGS];
 
+enum list_finding {
+  LIST_RIGHT,
+  LIST_UNDECIDED, /* right, but the judge has left something open */
+  LIST_LOST,
+  LIST_INVENTED,
+  LIST_BORDER_LOST,
+  LIST_ORDER,
+  LIST_FINDINGS
+};
+
+extern const char *const list_finding_names[LIST_FINDINGS];
+
 struct certificate {
   enum finding finding;
   bool sure;      /* the hit or miss is proven to be the answer: a grazing one could be certain */
@@ -45,6 +60,7 @@ struct certificate {
 struct truth_root {
   struct exact_root at;
   uint32_t patch;
+  bool met;     /* a hit of the last list has been found for it */
   bool floored; /* `floor` is known */
   struct facts_floor floor;
 };
@@ -74,5 +90,8 @@ void certifier_create(struct certifier *certifier, const struct scene *scene, st
 void certifier_destroy(struct certifier *certifier);
 
 void certify(struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out);
+
+/* Judges a list of all hits, and notes in `truth` which roots it has met. */
+enum list_finding certify_list(struct certifier *certifier, const struct ray *ray, const struct hit_list *list);
 
 #endif

@@ -1,7 +1,6 @@
 /* Proves that no answer is wrong. The exact judge proves or refutes every answer to all classes of situations.h and
  * hostile.h: each ray in several ways, with every solver and several splits, all judged by one proof. None may be
- * refuted, whether it is called certain or grazing. Prints for each class and solver the counts by verdict, and the
- * slowest ray. */
+ * refuted, whether it is called certain or grazing. Prints for each class and solver the counts by verdict. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,20 +9,13 @@
 #include "accuracy/certificate.h"
 #include "accuracy/class_tests.h"
 #include "accuracy/cycle_scenes.h"
-#include "accuracy/exact.h"
-#include "accuracy/generate.h"
-#include "accuracy/thresholds.h"
-#include "accuracy/trial.h"
-#include "base/clock.h"
+#include "accuracy/generators.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 
-/* A ray that takes longer, in seconds, is counted and printed as slow. Timing decides no test. */
-#define SLOW 2e-3
-
 /* This many rays, with 7 forms and in 4 ways, make a million answers. */
-enum { FULL_RAYS = 36000, FULL_SITUATIONS = 5, MOST_SHOWN = 6 };
+enum { FULL_RAYS = 36000, LEAST_RAYS = 16, FULL_SITUATIONS = 5, MOST_SHOWN = 6 };
 
 /* The number of crowds of each kind, and of packets at each. */
 static const size_t FULL_CROWDS[] = {2000, 200};
@@ -35,8 +27,6 @@ struct count {
   size_t answers[VERDICTS][FINDINGS];
   size_t grazing_sure; /* grazing although the judge proves the answer */
   size_t company;      /* answered differently in a packet than alone, or when asked for any hit */
-  size_t slow;         /* above SLOW */
-  double slowest;      /* seconds */
 };
 
 struct asking {
@@ -44,40 +34,24 @@ struct asking {
   struct count counts[CLASS_FORMS];
 };
 
-/* With PSCN_SHOW set, shows everything, and the scene too. */
-static void show(const char *name, const struct class_form *form, const struct situation *s, const struct ray *ray,
-                 const struct hit *hit, const char *what)
-{
-  const double *o = ray->origin, *d = ray->direction;
-  printf("%s, %s, split %d: %s %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", name, form->solver, form->split,
-         hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", what, o[0], o[1], o[2], d[0], d[1], d[2]);
-  if (ray->t_min > 0 || isfinite(ray->t_max)) printf("  from %.17g to %.17g\n", ray->t_min, ray->t_max);
-  if (hit->patch != HIT_NONE)
-    printf("  answer t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
-  if (!getenv("PSCN_SHOW")) return;
-  class_print_patches(s);
-}
-
-static void show_refuted(const char *name, const struct class_form *form, const struct situation *s,
-                         const struct ray *ray, const struct hit *hit, const struct certificate *c)
+/* With PSCN_SHOW set, shows everything, and the patches too. */
+static void show(const char *name, const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                 const char *what)
 {
   static size_t shown = 0;
   if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
-  if (c->patch != REFERENCE_NONE)
-    printf("  truth  t %.17g u %.17g v %.17g patch %u, %.3g floors\n", c->t, c->u, c->v, (unsigned)c->patch, c->off);
-  show(name, form, s, ray, hit, finding_names[c->finding]);
+  printf("%s: %s\n", name, what);
+  print_ray(ray);
+  print_hit("answer", hit);
+  if (getenv("PSCN_SHOW")) print_patches(&trial->scene);
 }
 
-/* Traces the ray, and again if that took long: the machine may have been busy. */
-static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
+static void show_refuted(const char *name, const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                         const struct certificate *c)
 {
-  double least = INFINITY;
-  for (int n = 0; n < 2 && least > SLOW; n++) {
-    const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-    tracer_closest(trial->tracer, 1, ray, out);
-    least = fmin(least, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
-  }
-  return least;
+  show(name, trial, ray, hit, finding_names[c->finding]);
+  if (c->patch != REFERENCE_NONE)
+    printf("  truth: t %.17g u %.17g v %.17g patch %u, %.3g floors\n", c->t, c->u, c->v, (unsigned)c->patch, c->off);
 }
 
 /* Whether the answer to a ray alone is as good as that in a packet, which `tally` judges: of the same verdict, and not
@@ -96,28 +70,25 @@ static enum verdict verdict_of(const struct hit *hit)
   return hit->patch == HIT_NONE ? GRAZING_MISS : GRAZING_HIT;
 }
 
-static void tally(const char *name, const struct class_form *form, const struct situation *s,
-                  struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct count *count)
+static void tally(const char *name, const struct trial *trial, struct certifier *certifier, const struct ray *ray,
+                  const struct hit *hit, struct count *count)
 {
   struct certificate certificate;
   certify(certifier, ray, hit, &certificate);
   const enum verdict verdict = verdict_of(hit);
   count->answers[verdict][certificate.finding]++;
   count->grazing_sure += verdict >= GRAZING_HIT && certificate.finding == FINDING_PROVEN && certificate.sure;
-  if (certificate.finding == FINDING_UNDECIDED && getenv("PSCN_SHOW")) show(name, form, s, ray, hit, "undecided");
-  if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, form, s, ray, hit, &certificate);
+  if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, trial, ray, hit, &certificate);
 }
 
 /* Checks that a ray asked alone is answered as among the situation's other rays. A packet's lanes do what they do for a
  * picture; a ray alone takes another path. */
-static void ask_alone(const char *name, const struct class_form *form, const struct situation *s, struct trial *trial,
-                      struct certifier *certifier, const struct ray *ray, const struct hit *packed, struct count *count)
+static void ask_alone(const char *name, struct trial *trial, struct certifier *certifier, const struct ray *ray,
+                      const struct hit *packed, struct count *count)
 {
   struct hit hit;
-  const double time = trace(trial, ray, &hit);
-  if (!fits(&hit, packed, certifier, ray)) count->company++, show(name, form, s, ray, &hit, "otherwise in a packet");
-  count->slowest = fmax(count->slowest, time), count->slow += time > SLOW;
-  if (time > SLOW && getenv("PSCN_SHOW")) show(name, form, s, ray, &hit, "slow");
+  tracer_closest(trial->tracer, 1, ray, &hit);
+  if (!fits(&hit, packed, certifier, ray)) count->company++, show(name, trial, ray, &hit, "otherwise in a packet");
 }
 
 /* The ways to ask a ray of a class: as it is; back from beyond its hit; ending or starting at the hit, exactly or off
@@ -140,14 +111,14 @@ static struct ray ray_of_way(const struct ray *ray, const struct hit *hit, enum 
 }
 
 /* Checks that a ray with an end, asked for any hit, is answered as its nearest hit says if that is certain. */
-static void ask_shadows(const char *name, const struct class_form *form, const struct situation *s, struct trial *trial,
-                        const struct ray *rays, size_t most, const struct hit *hits, struct count *count)
+static void ask_shadows(const char *name, struct trial *trial, const struct ray *rays, size_t most,
+                        const struct hit *hits, struct count *count)
 {
   bool occluded[SITUATION_RAYS];
   tracer_occluded(trial->tracer, most, rays, occluded);
   for (size_t n = 0; n < most; n++) {
     if (hits[n].certainty != CERTAINTY_CERTAIN || occluded[n] == (hits[n].patch != HIT_NONE)) continue;
-    count->company++, show(name, form, s, &rays[n], &hits[n], "otherwise asked for any hit");
+    count->company++, show(name, trial, &rays[n], &hits[n], "otherwise asked for any hit");
   }
 }
 
@@ -166,14 +137,13 @@ static void ask(const char *name, const struct situation *s, size_t most, void *
     for (int m = 0; m < CLASS_FORMS; m++) {
       struct trial *trial = &trials.form[m];
       tracer_closest(trial->tracer, most, rays, hits[m]);
-      if (way == ENDING) ask_shadows(name, &class_forms[m], s, trial, rays, most, hits[m], &asking->counts[m]);
+      if (way == ENDING) ask_shadows(name, trial, rays, most, hits[m], &asking->counts[m]);
     }
     for (size_t n = 0; n < most; n++) {
       for (int m = 0; m < CLASS_FORMS; m++) {
         struct count *count = &asking->counts[m];
-        tally(name, &class_forms[m], s, &certifier, &rays[n], &hits[m][n], count);
-        if (way == AS_IT_IS)
-          ask_alone(name, &class_forms[m], s, &trials.form[m], &certifier, &rays[n], &hits[m][n], count);
+        tally(name, &trials.form[m], &certifier, &rays[n], &hits[m][n], count);
+        if (way == AS_IT_IS) ask_alone(name, &trials.form[m], &certifier, &rays[n], &hits[m][n], count);
       }
     }
   }
@@ -195,19 +165,14 @@ static size_t refuted(const struct count *c, int verdict, int last_verdict)
   return sum(c, verdict, last_verdict, FINDING_UNDECIDED + 1, FINDINGS - 1);
 }
 
-static void print_count(const char *name, const struct class_form *form, uint64_t seed, const struct count *c)
+static void print_count(const char *name, const char *form, uint64_t seed, const struct count *c)
 {
-  printf("%-36s %-13s %2d %7zu answers: proven %zu hits, %zu misses; grazing %zu hits, %zu misses, %zu provable; "
-         "undecided %zu; refuted %zu certain, %zu grazing; ",
-         name, form->solver, form->split, sum(c, 0, VERDICTS - 1, 0, FINDINGS - 1),
-         c->answers[CERTAIN_HIT][FINDING_PROVEN], c->answers[CERTAIN_MISS][FINDING_PROVEN],
-         sum(c, GRAZING_HIT, GRAZING_HIT, FINDING_PROVEN, FINDING_UNDECIDED),
-         sum(c, GRAZING_MISS, GRAZING_MISS, FINDING_PROVEN, FINDING_UNDECIDED), c->grazing_sure,
+  printf("%-36s %-21s %7zu answers: proven %zu hits, %zu misses; grazing %zu, %zu of them provable; undecided %zu; "
+         "refuted %zu certain, %zu grazing; seed %llu\n",
+         name, form, sum(c, 0, VERDICTS - 1, 0, FINDINGS - 1), c->answers[CERTAIN_HIT][FINDING_PROVEN],
+         c->answers[CERTAIN_MISS][FINDING_PROVEN], sum(c, GRAZING_HIT, GRAZING_MISS, 0, FINDINGS - 1), c->grazing_sure,
          sum(c, CERTAIN_HIT, CERTAIN_MISS, FINDING_UNDECIDED, FINDING_UNDECIDED), refuted(c, CERTAIN_HIT, CERTAIN_MISS),
-         refuted(c, GRAZING_HIT, GRAZING_MISS));
-  for (int n = FINDING_UNDECIDED + 1; n < FINDINGS; n++)
-    printf("%s%s %zu", n > FINDING_UNDECIDED + 1 ? ", " : "", finding_names[n], sum(c, 0, VERDICTS - 1, n, n));
-  printf("; %zu slow, slowest %.2f ms; seed %llu\n", c->slow, 1e3 * c->slowest, (unsigned long long)seed);
+         refuted(c, GRAZING_HIT, GRAZING_MISS), (unsigned long long)seed);
   fflush(stdout);
 }
 
@@ -218,9 +183,9 @@ static void test_class(void **state)
   struct asking asking = {.random = {.state = seed + 1}};
   size_t bad = 0, certain_bad = 0;
   if (!class_wanted(class)) return;
-  class_ask_rays(class, FULL_RAYS, seed, ask, &asking);
+  class_ask_rays(class, FULL_RAYS, LEAST_RAYS, seed, ask, &asking);
   for (int m = 0; m < CLASS_FORMS; m++) {
-    print_count(class->name, &class_forms[m], seed, &asking.counts[m]);
+    print_count(class->name, class_forms[m], seed, &asking.counts[m]);
     certain_bad += refuted(&asking.counts[m], CERTAIN_HIT, CERTAIN_MISS) + asking.counts[m].company;
     bad += refuted(&asking.counts[m], GRAZING_HIT, GRAZING_MISS);
   }
@@ -245,11 +210,10 @@ static void ask_crowd(const char *name, bool copied, struct random *random, stru
     struct situation s = {.count = 1};
     struct hit hits[SITUATION_RAYS];
     memcpy(s.P[0], crowd.scene.patches[choose(random, crowd.scene.patch_count)].P, sizeof s.P[0]);
-    double size = 0;
-    for (int k = 3; k < 48; k++) size = fmax(size, fabs(s.P[0][k / 12][k / 3 % 4][k % 3] - s.P[0][0][0][k % 3]));
+    const double size = situation_size(&s);
     for (int n = 0; n < SITUATION_RAYS; n++) threshold_aim(random, (const double(*)[4][3])s.P[0], size, &s.rays[n]);
     tracer_closest(trial.tracer, SITUATION_RAYS, s.rays, hits);
-    for (int n = 0; n < SITUATION_RAYS; n++) tally(name, &class_forms[0], &s, &certifier, &s.rays[n], &hits[n], count);
+    for (int n = 0; n < SITUATION_RAYS; n++) tally(name, &trial, &certifier, &s.rays[n], &hits[n], count);
   }
   certifier_destroy(&certifier);
   trial_destroy(&trial);
@@ -265,10 +229,10 @@ static void test_crowds(void **state)
     const uint64_t seed = effort_seed(FIRST_CROWD + (uint64_t)kind);
     const size_t wanted = effort_count(FULL_CROWDS[kind], kind == 0); /* a quick run makes none of the large ones */
     struct random random = {.state = seed};
-    struct count count = {.slow = 0};
+    struct count count = {.company = 0};
     if (getenv("PSCN_CLASS") && !strstr(names[kind], getenv("PSCN_CLASS"))) continue;
     for (size_t n = 0; n < wanted; n++) ask_crowd(names[kind], kind == 0, &random, &count);
-    print_count(names[kind], &class_forms[0], seed, &count);
+    print_count(names[kind], class_forms[0], seed, &count);
     assert_int_equal(refuted(&count, 0, VERDICTS - 1) + count.company, 0);
   }
   exact_cleanup();
@@ -305,7 +269,7 @@ static const char *const wrong_names[WRONGS] = {"the reference's", "nearer", "fa
  * place to place. */
 #define WRONG_FLOORS 16
 
-static void judge_wrong(const char *name, const struct situation *s, struct certifier *certifier, const struct ray *ray,
+static void judge_wrong(const char *name, const struct trial *trial, struct certifier *certifier, const struct ray *ray,
                         size_t found[WRONGS][FINDINGS])
 {
   struct reference_answer truth;
@@ -319,7 +283,7 @@ static void judge_wrong(const char *name, const struct situation *s, struct cert
   if (c.finding == FINDING_LATER && hit.t - c.t <= REFERENCE_SAME_POINT * hit.t) return;
   if (c.finding > FINDING_UNDECIDED && truth.shared) return;
   found[RIGHT][c.finding]++;
-  if (c.finding > FINDING_PROVEN) show_refuted(name, &(struct class_form){"reference", 0}, s, ray, &hit, &c);
+  if (c.finding > FINDING_PROVEN) show_refuted(name, trial, ray, &hit, &c);
   if (c.finding != FINDING_PROVEN) return;
   if (hit.patch == HIT_NONE) {
     hit = (struct hit){.t = 1, .u = 0.5, .v = 0.5, .point_error = INFINITY, .normal = {1, 0, 0}};
@@ -356,7 +320,7 @@ static void test_judges(void **state)
       class->generate(&random, index, &s);
       trial_create(&trial, (const double(*)[4][4][3])s.P, s.count, NULL);
       certifier_create(&certifier, &trial.scene, trial.reference);
-      for (int r = 0; r < SITUATION_RAYS; r++) judge_wrong(class->name, &s, &certifier, &s.rays[r], found);
+      for (int r = 0; r < SITUATION_RAYS; r++) judge_wrong(class->name, &trial, &certifier, &s.rays[r], found);
       certifier_destroy(&certifier);
       trial_destroy(&trial);
     }
@@ -376,5 +340,5 @@ static void test_judges(void **state)
 int main(void)
 {
   const struct CMUnitTest others[] = {cmocka_unit_test(test_crowds), cmocka_unit_test(test_judges)};
-  return class_tests_run("certificates", test_class, others, sizeof others / sizeof others[0]);
+  return class_tests_run("certificates", every_class_count(), test_class, others, sizeof others / sizeof others[0]);
 }

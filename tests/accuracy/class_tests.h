@@ -1,5 +1,5 @@
-/* Tests that go through all classes of situations.h and hostile.h, each class as a cmocka test of its own. The
- * environment variable PSCN_CLASS, a name or a part of some names, leaves the others out. */
+/* Tests that go through all classes of situations.h, each class as a cmocka test of its own. The environment variable
+ * PSCN_CLASS, a name or a part of some names, leaves the others out. */
 #ifndef TESTS_ACCURACY_CLASS_TESTS_H
 #define TESTS_ACCURACY_CLASS_TESTS_H
 
@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "accuracy/hostile.h"
+#include "accuracy/situations.h"
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 
@@ -15,13 +15,8 @@
 bool class_wanted(const struct situation_class *class);
 
 /* How rays are asked: with every solver, and with splits other than its own; the default comes first. */
-struct class_form {
-  const char *solver;
-  int split; /* 0: the solver's own */
-};
 enum { CLASS_FORMS = 7 };
-extern const struct class_form class_forms[CLASS_FORMS];
-void class_method(const struct class_form *form, struct method *out);
+extern const char *const class_forms[CLASS_FORMS];
 
 /* A situation given to all forms; they share the reference of the first. */
 struct class_trials {
@@ -33,13 +28,13 @@ void class_trials_destroy(struct class_trials *trials);
 /* Asks the first `most` rays of the situation. */
 typedef void class_ask(const char *name, const struct situation *s, size_t most, void *context);
 
-/* Asks rays of the class: `full` times its share times PSCN_EFFORT, but at least some. */
-void class_ask_rays(const struct situation_class *class, size_t full, uint64_t seed, class_ask *ask, void *context);
+/* Asks rays of the class: `full` times its share times PSCN_EFFORT, but at least `least`. */
+void class_ask_rays(const struct situation_class *class, size_t full, size_t least, uint64_t seed, class_ask *ask,
+                    void *context);
 
-/* Prints the situation's patches as a scene has them. */
-void class_print_patches(const struct situation *s);
-
-/* Runs `test` for every class, with the const struct situation_class * as its state, and then the others. */
-int class_tests_run(const char *group, CMUnitTestFunction test, const struct CMUnitTest *others, size_t other_count);
+/* Runs `test` for the first `count` classes, with the const struct situation_class * as its state, and then the
+ * others. */
+int class_tests_run(const char *group, size_t count, CMUnitTestFunction test, const struct CMUnitTest *others,
+                    size_t other_count);
 
 #endif

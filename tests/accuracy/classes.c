@@ -7,35 +7,30 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "accuracy/models.h"
-#include "accuracy/situations.h"
-#include "accuracy/trial.h"
+#include "accuracy/class_tests.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 #include "worse.h"
 
-enum { FULL_RAYS = 50000, LEAST_RAYS = 64, MOST_CLASSES = 32, FULL_POLES = 10000 };
+enum { FULL_RAYS = 50000, LEAST_RAYS = 64, FULL_POLES = 10000 };
+
+static void ask(const char *name, const struct situation *s, size_t most, void *tally)
+{
+  (void)name;
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, NULL);
+  trial_rays(&trial, s->rays, most, tally);
+  trial_destroy(&trial);
+}
 
 static void test_class(void **state)
 {
   const struct situation_class *class = *state;
-  size_t wanted = effort_count((size_t)(class->share * FULL_RAYS), LEAST_RAYS);
   struct tally tally = {.name = class->name};
-  const uint64_t seed = effort_seed(class->seed);
-  struct random random = {.state = seed};
-  for (size_t index = 0; tally.rays < wanted; index++) {
-    struct situation situation;
-    class->generate(&random, index, &situation);
-    struct trial trial;
-    trial_create(&trial, (const double(*)[4][4][3])situation.P, situation.count, NULL);
-    trial_rays(&trial, situation.rays, SITUATION_RAYS, &tally);
-    trial_destroy(&trial);
-  }
-  printf("seed %llu\n", (unsigned long long)seed);
-  tally_print(&tally);
+  if (!class_wanted(class)) return;
+  class_ask_rays(class, FULL_RAYS, LEAST_RAYS, effort_seed(class->seed), ask, &tally);
   tally_assert(&tally);
-  tally_free(&tally);
 }
 
 /* The allowed error of the limit normal at a collapsed pole. Directions of control points are rounded when a model is
@@ -59,7 +54,7 @@ static void test_poles(void **state)
   struct random random = {.state = 520};
   double worst = 0;
   for (size_t n = 0; n < wanted; n++) {
-    struct model model;
+    struct closed_model model;
     (n % 2 ? model_ball : model_dome)(&model);
     struct placement placement;
     double scale = scales[n % 3], origin[3];
@@ -91,14 +86,6 @@ static void test_poles(void **state)
 
 int main(void)
 {
-  struct CMUnitTest tests[MOST_CLASSES];
-  size_t count = situation_class_count();
-  assert_true(count < MOST_CLASSES);
-  for (size_t n = 0; n < count; n++) {
-    void *class = (void *)(uintptr_t)situation_class_at(n); /* cmocka's state is not const */
-    tests[n] = (struct CMUnitTest){
-      .name = situation_class_at(n)->name, .test_func = test_class, .initial_state = class};
-  }
-  tests[count] = (struct CMUnitTest)cmocka_unit_test(test_poles);
-  return _cmocka_run_group_tests("classes", tests, count + 1, NULL, NULL);
+  const struct CMUnitTest others[] = {cmocka_unit_test(test_poles)};
+  return class_tests_run("classes", situation_class_count(), test_class, others, 1);
 }

@@ -2,7 +2,7 @@
  *
  *   cost [SCENE...]
  *
- * The rays are those of every class of situations.h and hostile.h (PSCN_CLASS leaves the others out), and rays aimed at
+ * The rays are those of every class of situations.h (PSCN_CLASS leaves the others out), and rays aimed at
  * each scene: tangent at a point of a patch as nearly as doubles allow, at points of edges, and at corners and poles,
  * exactly. Each line gives the median, the 99th percentile, the worst, and how many answers are grazing, for the
  * nearest hit and for all hits. PSCN_EFFORT sets the number of rays. */
@@ -12,7 +12,6 @@
 
 #include "accuracy/class_tests.h"
 #include "accuracy/generate.h"
-#include "accuracy/trial.h"
 #include "base/clock.h"
 #include "base/sort.h"
 #include "cmocka_test.h"
@@ -58,8 +57,7 @@ static void cost_print(struct cost *cost, const char *name, const char *kind)
          cost->count, 1e6 * cost->times[cost->count / 2], 1e6 * cost->times[cost->count - 1 - cost->count / 100],
          1e6 * cost->times[cost->count - 1], 100 * (double)cost->grazing / (double)cost->count,
          100 * (double)cost->all_grazing / (double)cost->count);
-  const double *o = cost->worst.origin, *d = cost->worst.direction;
-  if (getenv("PSCN_SHOW")) printf("  worst %.17g %.17g %.17g %.17g %.17g %.17g\n", o[0], o[1], o[2], d[0], d[1], d[2]);
+  if (getenv("PSCN_SHOW")) print_ray(&cost->worst);
   fflush(stdout);
   free(cost->times);
 }
@@ -82,7 +80,7 @@ static void classes(void **state)
     const struct situation_class *class = every_class_at(n);
     struct cost cost = {0};
     if (!class_wanted(class)) continue;
-    class_ask_rays(class, FULL_RAYS, effort_seed(class->seed), ask, &cost);
+    class_ask_rays(class, FULL_RAYS, 16, effort_seed(class->seed), ask, &cost);
     cost_print(&cost, "class", class->name);
   }
 }

@@ -56,21 +56,11 @@ static void halve(const net P, net low, net high)
   }
 }
 
-static void transpose(net P)
-{
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < i; j++) {
-      double p[3];
-      memcpy(p, P[i][j], sizeof p), memcpy(P[i][j], P[j][i], sizeof p), memcpy(P[j][i], p, sizeof p);
-    }
-}
-
 static void reverse(net P)
 {
-  for (int i = 0; i < 2; i++) {
-    double row[4][3];
-    memcpy(row, P[i], sizeof row), memcpy(P[i], P[3 - i], sizeof row), memcpy(P[3 - i], row, sizeof row);
-  }
+  net old;
+  memcpy(old, P, sizeof old);
+  in_order(old, 2, P);
 }
 
 /* ---- shapes ---- */

@@ -10,7 +10,9 @@
 
 struct cycle_scene {
   struct scene scene;
+  struct method solvers[CYCLE_MOST];
   struct scene_object object;
+  double P[CYCLE_MOST][4][4][3]; /* the object's */
   struct intersector *intersector;
   struct tracer *tracer;
   double middle[3], size; /* all control points are closer than size to the middle */

@@ -5,13 +5,12 @@
  * nearest hit, and whether there is one, agree with the list of all hits. Every wrong answer must be called grazing. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "accuracy/class_tests.h"
 #include "accuracy/cycle_scenes.h"
 #include "accuracy/generate.h"
 #include "accuracy/models.h"
+#include "accuracy/trial.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "intersect/intersect.h"
@@ -126,23 +125,11 @@ static void show(const char *what, const struct cycle_scene *s, const struct ray
                  const struct hit *hit)
 {
   static size_t shown = 0;
-  const double *o = ray->origin, *d = ray->direction;
   if (shown++ >= MOST_SHOWN) return;
-  printf("%s: %zu hits; ray %.17g %.17g %.17g %.17g %.17g %.17g\n", what, list->count, o[0], o[1], o[2], d[0], d[1],
-         d[2]);
-  for (size_t k = 0; k < list->count && k < MOST_HITS_SHOWN; k++)
-    printf("  t %.17g u %.17g v %.17g patch %u\n", list->hits[k].t, list->hits[k].u, list->hits[k].v,
-           (unsigned)list->hits[k].patch);
-  if (hit->patch != HIT_NONE)
-    printf("  nearest t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
-  struct situation situation = {.count = s->scene.patch_count};
-  if (situation.count > CYCLE_MOST) return;
-  for (size_t n = 0; n < situation.count; n++) {
-    const struct method *method = &s->scene.solvers[s->scene.patches[n].solver];
-    printf("// patch %zu: %s, split %d\n", n, method->roots.solver->name, method->split);
-    memcpy(situation.P[n], s->scene.patches[n].P, sizeof situation.P[n]);
-  }
-  class_print_patches(&situation);
+  printf("%s: %zu hits\n", what, list->count);
+  print_ray(ray), print_hit("nearest", hit);
+  for (size_t k = 0; k < list->count && k < MOST_HITS_SHOWN; k++) print_hit("hit", &list->hits[k]);
+  if (s->scene.patch_count <= CYCLE_MOST) print_patches(&s->scene);
 }
 
 static bool same_t(const struct cycle_scene *s, const struct ray *ray, double t, double other)
@@ -197,7 +184,6 @@ static void ask_parts(const struct cycle_scene *s, struct random *random, size_t
         (hits[n].certainty == CERTAINTY_GRAZING || nearest_is(s, &rays[n], &hits[n], first[n])))
       continue;
     to->differing++, show("part differs", s, &rays[n], &lists[n], &hits[n]);
-    printf("  from %.17g to %.17g\n", rays[n].t_min, rays[n].t_max);
   }
 }
 

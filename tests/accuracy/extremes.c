@@ -1,10 +1,9 @@
-/* See extremes.h. */
-#include "accuracy/extremes.h"
+/* Situations at the limits of double. */
+#include "accuracy/generators.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "accuracy/generate.h"
 #include "base/wide.h"
 
 enum { RAYS = SITUATION_RAYS };
@@ -33,11 +32,11 @@ static void uneven(struct random *random, size_t index, size_t thinnest, int far
     double at[3], d[3], away = choose(random, 3) ? 1 : random_decade(random, -9, 3);
     net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
     random_direction(random, d);
-    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
     for (int axis = 0; axis < 3; axis++) {
-      s->rays[n].direction[axis] = d[axis] * (choose(random, 2) ? factor[axis] : 1);
-      s->rays[n].origin[axis] = at[axis] - away * s->rays[n].direction[axis];
+      d[axis] *= choose(random, 2) ? factor[axis] : 1;
+      at[axis] -= away * d[axis];
     }
+    ray_along(at, d, &s->rays[n]);
   }
 }
 
@@ -66,11 +65,8 @@ void extreme_met_poles(struct random *random, size_t index, struct situation *s)
     if (choose(random, 2)) d[choose(random, 3)] = 0;
     const double back = ldexp(choose(random, 4) ? 1 : -1, choose(random, 2) ? 1 : -(int)choose(random, 100));
     const double off = choose(random, 3) ? ldexp(1, -50 - (int)choose(random, 100)) : 0;
-    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
-    for (int axis = 0; axis < 3; axis++) {
-      s->rays[n].direction[axis] = d[axis];
-      s->rays[n].origin[axis] = off * random_between(random, -1, 1) - back * d[axis];
-    }
+    for (int axis = 0; axis < 3; axis++) along[axis] = off * random_between(random, -1, 1) - back * d[axis];
+    ray_along(along, d, &s->rays[n]);
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "intersect/intersect.h"
+#include "net_order.h"
 #include "random.h"
 
 /* A nearly regular net over [-1.5,1.5]^2 with heights of +-`height`. */
@@ -20,15 +22,41 @@ static inline void gentle(struct random *random, double height, double P[4][4][3
   }
 }
 
+/* u and v exchanged. */
+static inline void transpose(double P[4][4][3])
+{
+  double old[4][4][3];
+  memcpy(old, P, sizeof old);
+  in_order(old, 1, P);
+}
+
+/* Raises a net of degree 1 or 2 in both parameters to degree 3. This is exact for multiples of 9. */
+static inline void raise_net(int degree, double P[4][4][3])
+{
+  for (int own = degree; own < 3; own++) { /* from degree `own` to own + 1 */
+    for (int way = 0; way < 2; way++) {
+      for (int n = 0; n <= own + way; n++)
+        for (int i = own + 1; i >= 0; i--)
+          for (int axis = 0; axis < 3; axis++)
+            P[i][n][axis] = ((i ? i * P[i - 1][n][axis] : 0) + (i <= own ? (own + 1 - i) * P[i][n][axis] : 0)) /
+                            (own + 1);
+      transpose(P);
+    }
+  }
+}
+
+static inline void ray_along(const double origin[3], const double direction[3], struct ray *ray)
+{
+  *ray = (struct ray){.t_max = INFINITY};
+  for (int axis = 0; axis < 3; axis++) ray->origin[axis] = origin[axis], ray->direction[axis] = direction[axis];
+}
+
 /* `origin` may be the ray's own. */
 static inline void ray_between(const double origin[3], const double target[3], struct ray *ray)
 {
-  for (int axis = 0; axis < 3; axis++) {
-    ray->direction[axis] = target[axis] - origin[axis];
-    ray->origin[axis] = origin[axis];
-  }
-  ray->t_min = 0;
-  ray->t_max = INFINITY;
+  const double from[3] = {origin[0], origin[1], origin[2]};
+  ray_along(from, target, ray);
+  for (int axis = 0; axis < 3; axis++) ray->direction[axis] -= from[axis];
 }
 
 static inline void random_vector(struct random *random, double size, double out[3])

@@ -1,15 +1,8 @@
-/* Generators of rays aimed at what the intersector treats apart; see hostile.h. */
-#include "accuracy/hostile.h"
+/* Rays aimed at what the intersector treats apart; and the classes for the exact judge. */
+#include "accuracy/generators.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "accuracy/extremes.h"
-#include "accuracy/generate.h"
-#include "accuracy/lattice.h"
-#include "accuracy/models.h"
-#include "accuracy/rings.h"
-#include "accuracy/thresholds.h"
 
 enum { RAYS = SITUATION_RAYS };
 
@@ -110,22 +103,26 @@ static void thin(struct random *random, size_t index, struct situation *s)
 
 /* ---- starts, sizes ---- */
 
+/* A ray in any direction from a point or a little beside it. */
+static void start_beside(struct random *random, const double at[3], double size, struct ray *ray)
+{
+  double d[3], from[3];
+  const double off = choose(random, 4) ? random_decade(random, 2, 17) * size : 0;
+  random_direction(random, d);
+  random_vector(random, off, from);
+  for (int axis = 0; axis < 3; axis++) from[axis] += at[axis];
+  ray_along(from, d, ray);
+}
+
 /* From within 1 % of a pole, on the surface or beside it, anywhere. */
 static void pole_starts(struct random *random, size_t index, struct situation *s)
 {
   place_pole(random, index, s);
-  const double size = situation_size(s);
   for (int n = 0; n < RAYS; n++) {
-    double d[3], at[3];
-    random_direction(random, d);
+    double at[3];
     net_point((const double(*)[4][3])s->P[0], random_decade(random, 2, 16) * random_unit(random), random_unit(random),
               at);
-    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
-    const double off = choose(random, 4) ? random_decade(random, 2, 17) * size : 0;
-    for (int axis = 0; axis < 3; axis++) {
-      s->rays[n].origin[axis] = at[axis] + off * random_between(random, -1, 1);
-      s->rays[n].direction[axis] = d[axis];
-    }
+    start_beside(random, at, situation_size(s), &s->rays[n]);
   }
 }
 
@@ -133,16 +130,12 @@ static void pole_starts(struct random *random, size_t index, struct situation *s
 static void surface_starts(struct random *random, size_t index, struct situation *s)
 {
   place_body(random, index, 0.5, 0.5, s);
-  const double size = situation_size(s);
   for (int n = 0; n < RAYS; n++) {
     double at[3];
     const double u = choose(random, 4) ? random_unit(random) : (double)choose(random, 2);
     const double v = choose(random, 4) ? random_unit(random) : (double)choose(random, 2);
     net_point((const double(*)[4][3])s->P[0], u, v, at);
-    random_direction(random, s->rays[n].direction);
-    s->rays[n].t_min = 0, s->rays[n].t_max = INFINITY;
-    const double off = choose(random, 4) ? random_decade(random, 2, 17) * size : 0;
-    for (int axis = 0; axis < 3; axis++) s->rays[n].origin[axis] = at[axis] + off * random_between(random, -1, 1);
+    start_beside(random, at, situation_size(s), &s->rays[n]);
   }
 }
 

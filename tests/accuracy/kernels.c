@@ -1,7 +1,7 @@
 /* Proves that every kernel of the processor gives the same answers to every ray: the same hit or miss, certainty and
  * patch; T, U, V differ in their last places only. Whatever rays are beside it, a ray's answer is the same to the last
  * bit. The exception is a ray for which another hit, or a border, is too near for doubles to tell apart: there T, U, V
- * may differ in their last places. Any hit is found exactly where a closest one is. Runs all classes of hostile.h, and
+ * may differ in their last places. Any hit is found exactly where a closest one is. Runs all classes of situations.h, and
  * prints for each what differs. */
 #include <math.h>
 #include <stdio.h>
@@ -9,13 +9,11 @@
 #include <string.h>
 
 #include "accuracy/class_tests.h"
-#include "accuracy/kernel_choice.h"
-#include "accuracy/trial.h"
 #include "cmocka_test.h"
 #include "effort.h"
-#include "random.h"
+#include "intersect/tracer.h"
 
-enum { FULL_RAYS = 100000, LEAST_RAYS = 128, MOST_SHOWN = 4 };
+enum { FULL_RAYS = 100000, LEAST_RAYS = 48, MOST_SHOWN = 4 };
 
 struct count {
   size_t rays;
@@ -41,14 +39,8 @@ static void show(const char *class, const char *what, const struct ray *ray, con
 {
   static size_t shown = 0;
   if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
-  const double *o = ray->origin, *d = ray->direction;
-  printf("%s: %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", class, what, o[0], o[1], o[2], d[0], d[1], d[2]);
-  const struct hit *const hits[2] = {a, b};
-  for (int n = 0; n < 2; n++) {
-    printf("  %s ", hits[n]->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
-    if (hits[n]->patch == HIT_NONE) printf("miss\n");
-    else printf("t %.17g u %.17g v %.17g patch %u\n", hits[n]->t, hits[n]->u, hits[n]->v, (unsigned)hits[n]->patch);
-  }
+  printf("%s: %s\n", class, what);
+  print_ray(ray), print_hit("one", a), print_hit("other", b);
 }
 
 static void compare(const char *class, const char *kernel, const struct reference *reference, const struct ray *ray,
@@ -91,22 +83,21 @@ static bool is_tied(struct trial *trial, const struct ray *ray, const struct hit
   return near > 1;
 }
 
-static void run_situation(const char *class, const struct situation *s, struct count *count)
+static void ask(const char *class, const struct situation *s, size_t most, void *context)
 {
+  struct count *count = context;
   struct trial trial;
   trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, NULL);
-  const size_t kernels = kernel_choices();
-  struct hit alone[SITUATION_RAYS], hits[SITUATION_RAYS];
-  for (size_t k = kernels; k-- > 0;) {
-    const char *name = kernel_choose(trial.tracer, k);
-    for (int n = 0; n < SITUATION_RAYS; n += PACKET_SIZE)
-      tracer_closest(trial.tracer, PACKET_SIZE, &s->rays[n], &hits[n]);
-    if (k == kernels - 1) memcpy(alone, hits, sizeof alone);
-    for (int n = 0; n < SITUATION_RAYS; n++)
-      compare(class, name, trial.reference, &s->rays[n], &alone[n], &hits[n], count);
-    for (int n = 0; n < SITUATION_RAYS; n++) {
+  const struct kernel *kernels[KERNELS_MAX];
+  struct hit plain[SITUATION_RAYS], hits[SITUATION_RAYS];
+  for (size_t k = kernels_here(kernels), first = k; k-- > 0;) {
+    trial.tracer->kernel = kernels[k];
+    tracer_closest(trial.tracer, most, s->rays, hits);
+    if (k + 1 == first) memcpy(plain, hits, sizeof plain); /* the last is the plainest */
+    for (size_t n = 0; n < most; n++) {
       struct hit single;
       bool occluded;
+      compare(class, kernels[k]->name, trial.reference, &s->rays[n], &plain[n], &hits[n], count);
       tracer_closest(trial.tracer, 1, &s->rays[n], &single);
       tracer_occluded(trial.tracer, 1, &s->rays[n], &occluded);
       if (!same(&single, &hits[n]) && is_tied(&trial, &s->rays[n], &single, &hits[n])) count->tied++;
@@ -117,7 +108,7 @@ static void run_situation(const char *class, const struct situation *s, struct c
         count->occlusion++, show(class, "occlusion", &s->rays[n], &single, &single);
     }
   }
-  count->rays += SITUATION_RAYS;
+  count->rays += most;
   trial_destroy(&trial);
 }
 
@@ -126,14 +117,8 @@ static void test_class(void **state)
   const struct situation_class *class = *state;
   if (!class_wanted(class)) return;
   struct count c = {0};
-  const size_t wanted = effort_count((size_t)(class->share * FULL_RAYS), LEAST_RAYS);
   const uint64_t seed = effort_seed(class->seed);
-  struct random random = {.state = seed};
-  for (size_t index = 0; c.rays < wanted; index++) {
-    struct situation situation;
-    class->generate(&random, index, &situation);
-    run_situation(class->name, &situation, &c);
-  }
+  class_ask_rays(class, FULL_RAYS, LEAST_RAYS, seed, ask, &c);
   printf("%-36s %7zu rays: verdict %zu, certainty %zu, patch %zu, T %zu, last bits %zu differ; T by %.2g floors; "
          "company %zu, and %zu tied, "
          "occlusion %zu; seed %llu\n",
@@ -142,4 +127,4 @@ static void test_class(void **state)
   assert_int_equal(c.verdict + c.certainty + c.patch + c.place + c.company + c.occlusion, 0);
 }
 
-int main(void) { return class_tests_run("kernels", test_class, NULL, 0); }
+int main(void) { return class_tests_run("kernels", every_class_count(), test_class, NULL, 0); }

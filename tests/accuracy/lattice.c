@@ -1,10 +1,8 @@
-/* Nets and rays of small whole numbers. See lattice.h. */
-#include "accuracy/lattice.h"
+/* Nets and rays of small whole numbers. */
+#include "accuracy/generators.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "accuracy/generate.h"
 
 enum { RAYS = SITUATION_RAYS, PATCHES = 8 };
 

@@ -25,7 +25,7 @@ static void revolve(const double r[4], const double y[4], double sign_x, double 
   }
 }
 
-static void add_revolved(struct model *model, const double r[4], const double y[4])
+static void add_revolved(struct closed_model *model, const double r[4], const double y[4])
 {
   for (int quarter = 0; quarter < 4; quarter++)
     revolve(r, y, quarter & 1 ? -1 : 1, quarter & 2 ? -1 : 1, model->P[model->count++]);
@@ -33,26 +33,26 @@ static void add_revolved(struct model *model, const double r[4], const double y[
 
 static const double arc_r[4] = {0, ARC, 1, 1}, arc_y[4] = {1, 1, ARC, 0};
 
-void model_dome(struct model *out)
+void model_dome(struct closed_model *out)
 {
   static const double base_r[4] = {0, 1.0 / 3, 2.0 / 3, 1}, base_y[4] = {0, 0, 0, 0};
-  *out = (struct model){.name = "dome"};
+  *out = (struct closed_model){.name = "dome"};
   add_revolved(out, arc_r, arc_y);
   add_revolved(out, base_r, base_y);
 }
 
-void model_ball(struct model *out)
+void model_ball(struct closed_model *out)
 {
   static const double below_y[4] = {-1, -1, -ARC, 0};
-  *out = (struct model){.name = "ball"};
+  *out = (struct closed_model){.name = "ball"};
   add_revolved(out, arc_r, arc_y);
   add_revolved(out, arc_r, below_y);
 }
 
-void model_torus(struct model *out)
+void model_torus(struct closed_model *out)
 {
   const double tube = 0.4;
-  *out = (struct model){.name = "torus"};
+  *out = (struct closed_model){.name = "torus"};
   for (int quarter = 0; quarter < 4; quarter++) {
     double r[4], y[4];
     for (int i = 0; i < 4; i++) {
@@ -63,7 +63,7 @@ void model_torus(struct model *out)
   }
 }
 
-void model_teapot(struct model *out)
+void model_teapot(struct closed_model *out)
 {
   enum { WALL = 12, BOTTOM = 28 }; /* rim and body come first, handle, spout and lid between */
   struct edge_neighbour neighbour[4 * MODEL_MOST_PATCHES];
@@ -84,7 +84,7 @@ void model_teapot(struct model *out)
   }
 }
 
-void model_inside(const struct model *model, struct random *random, double out_point[3])
+void model_inside(const struct closed_model *model, struct random *random, double out_point[3])
 {
   double p[3], square;
   do {
@@ -134,13 +134,13 @@ void placement_apply(const struct placement *placement, const double p[3], doubl
   memcpy(out, moved, sizeof moved);
 }
 
-void model_place(struct model *model, const struct placement *placement)
+void model_place(struct closed_model *model, const struct placement *placement)
 {
   for (size_t n = 0; n < model->count; n++)
     for (int k = 0; k < 16; k++) placement_apply(placement, model->P[n][k / 4][k % 4], model->P[n][k / 4][k % 4]);
 }
 
-void model_placed(void (*make)(struct model *out), struct random *random, double scale, double shift, bool moved,
+void model_placed(void (*make)(struct closed_model *out), struct random *random, double scale, double shift, bool moved,
                   struct placed_model *out)
 {
   make(&out->model);

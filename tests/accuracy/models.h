@@ -10,7 +10,7 @@
 
 enum { MODEL_MOST_PATCHES = 32 };
 
-struct model {
+struct closed_model {
   const char *name;
   size_t count;
   double P[MODEL_MOST_PATCHES][4][4][3];
@@ -20,21 +20,21 @@ struct model {
 
 /* Half a ball with poles at (0,1,0), closed by a flat base whose centre is collapsed too: 8 patches. Row i = 0 is the
  * pole. */
-void model_dome(struct model *out);
+void model_dome(struct closed_model *out);
 
 /* A ball of 8 octants with collapsed poles at (0,1,0) and (0,-1,0). */
-void model_ball(struct model *out);
+void model_ball(struct closed_model *out);
 
 /* A torus about the y axis, radii 1 and 0.4: 16 patches; u runs around the tube. */
-void model_torus(struct model *out);
+void model_torus(struct closed_model *out);
 
 /* The body of the teapot of scenes/teapot.pscn: rim, body and bottom, open between rim and lid. Handle, spout and lid
  * are present, and not part of the wall. In units of 2: the body's radius is 1, the bottom at y = 0. */
-void model_teapot(struct model *out);
+void model_teapot(struct closed_model *out);
 
 /* A point well inside: at most half as far from the middle (torus: from the circle inside the tube) as the surface
  * is. */
-void model_inside(const struct model *model, struct random *random, double out_point[3]);
+void model_inside(const struct closed_model *model, struct random *random, double out_point[3]);
 
 /* A rotation (rows orthonormal to rounding) times `scale`, and a shift. One function of the point alone applies it, so
  * shared points stay shared. */
@@ -43,15 +43,15 @@ struct placement {
 };
 void placement_random(struct random *random, double scale, double shift, struct placement *out);
 void placement_apply(const struct placement *placement, const double p[3], double out[3]);
-void model_place(struct model *model, const struct placement *placement);
+void model_place(struct closed_model *model, const struct placement *placement);
 
 /* A model as it is made, and as it is placed: the same unless `moved`. */
 struct placed_model {
-  struct model model, placed;
+  struct closed_model model, placed;
   struct placement placement;
   bool moved;
 };
-void model_placed(void (*make)(struct model *out), struct random *random, double scale, double shift, bool moved,
+void model_placed(void (*make)(struct closed_model *out), struct random *random, double scale, double shift, bool moved,
                   struct placed_model *out);
 
 /* Takes a point that belongs to the model along. */

@@ -1,8 +1,8 @@
-/* Rays that were once answered wrongly, and similar ones made by hand. */
+/* Rays that were once answered wrongly, and many like them. Single ones are in cases/. */
 #include <math.h>
 #include <string.h>
 
-#include "accuracy/models.h"
+#include "accuracy/generate.h"
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 
@@ -13,10 +13,9 @@ typedef double net[4][4][3];
 
 static struct hit closest(const struct trial *trial, const double origin[3], const double direction[3])
 {
-  struct ray ray = {.t_min = 0, .t_max = INFINITY};
-  memcpy(ray.origin, origin, sizeof ray.origin);
-  memcpy(ray.direction, direction, sizeof ray.direction);
+  struct ray ray;
   struct hit hit;
+  ray_along(origin, direction, &ray);
   tracer_closest(trial->tracer, 1, &ray, &hit);
   return hit;
 }
@@ -63,69 +62,6 @@ TEST(test_start)
   const struct hit start = closest(&trial, on, direction);
   assert_int_equal(start.patch, HIT_NONE);
   assert_int_equal(start.certainty, CERTAINTY_CERTAIN);
-  trial_destroy(&trial);
-}
-
-/* Next to the plane of an edge a parameter has more digits than the leaf's polynomials. */
-TEST(test_small_parameter)
-{
-  struct model model;
-  model_dome(&model);
-  struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3])model.P, model.count, NULL);
-  struct tally tally = {.name = "next to an edge's plane"};
-  const struct ray ray = {{-0x1.4a85fa15db5a8p+1, 0x1.86e95dab6e398p-3, -0x1.d71d17b166ep-9},
-                          {0x1.4a85fa15db5a8p+1, -0x1.86e95dab6e398p-3, 0x1.d71d17b166ep-9},
-                          0,
-                          INFINITY};
-  trial_rays(&trial, &ray, 1, &tally);
-  assert_int_equal(tally.hits, 1);
-  tally_assert(&tally);
-  tally_free(&tally);
-  trial_destroy(&trial);
-}
-
-/* A patch that is a line, met exactly: the answer is the point that the ray passes, not just any one of the line. */
-TEST(test_line)
-{
-  net P;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      const double p[3] = {i - 1.5 + 0.125 * j, 0.25, 0.25};
-      memcpy(P[i][j], p, sizeof p);
-    }
-  }
-  struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
-  for (int n = -5; n < 6; n++) {
-    const double origin[3] = {n / 4.0 - 0.5, 1.25, 4.25}, direction[3] = {0.5, -1, -4};
-    const struct hit hit = closest(&trial, origin, direction);
-    assert_int_equal(hit.patch, 0);
-    assert_int_equal(hit.certainty, CERTAINTY_GRAZING);
-    assert_true(facts_residual(reference_net(trial.reference, 0), origin, direction, hit.t, hit.u, hit.v) < 1e-11);
-  }
-  trial_destroy(&trial);
-}
-
-/* Through the corner of a patch that is a line: one combination of the planes is known badly, which must not blur the
- * other. */
-TEST(test_corner_of_line)
-{
-  static const double x[4][4] = {
-    {-0x1.60eb34df6a67dp+0, -0x1.7a04fdefbdbe1p+0, -0x1.a56b7eb02ebfcp+0, -0x1.91e293d3385c4p+0},
-    {-0x1.39434e7ae7adcp-2, -0x1.0e8c13ea7fad5p-1, -0x1.11fa41fdaedf9p-1, -0x1.5ceea8c55f3d4p-1},
-    {0x1.70f29210ee854p-2, 0x1.37b3ab59ddf7p-1, 0x1.85503f7a90802p-2, 0x1.ebae1309f59d9p-2},
-    {0x1.a863a77e6dcdap+0, 0x1.a3b71241f9d58p+0, 0x1.a5ffda26d458bp+0, 0x1.896924b3da50cp+0}};
-  const double origin[3] = {-0x1.8840fa87a9dc9p+1, -0x1.5b577735d14d2p+0, 0x1.050276e605e4p+2};
-  const double direction[3] = {0x1.2e3967237061bp+2, 0x1.9b577735d14d2p+0, -0x1.ea04edcc0bc8p+1};
-  net P;
-  for (int n = 0; n < 16; n++) P[n / 4][n % 4][0] = x[n / 4][n % 4], P[n / 4][n % 4][1] = P[n / 4][n % 4][2] = 0.25;
-  struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
-  const struct hit hit = closest(&trial, origin, direction);
-  assert_int_equal(hit.patch, 0);
-  assert_int_equal(hit.certainty, CERTAINTY_GRAZING);
-  assert_true(facts_residual(reference_net(trial.reference, 0), origin, direction, hit.t, hit.u, hit.v) < TRIAL_NEAR);
   trial_destroy(&trial);
 }
 

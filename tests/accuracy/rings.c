@@ -1,11 +1,8 @@
-/* Rays round poles, edges, corners, cusps, rulings, tangencies and open borders; see rings.h. */
-#include "accuracy/rings.h"
+/* Rays round poles, edges, corners, cusps, rulings, tangencies and open borders. */
+#include "accuracy/generators.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "accuracy/generate.h"
-#include "accuracy/models.h"
 
 enum { RAYS = SITUATION_RAYS };
 
@@ -16,14 +13,11 @@ enum { RAYS = SITUATION_RAYS };
 static void ray_past(struct random *random, const double at[3], double off, double size, const double d[3],
                      struct ray *ray)
 {
-  double aside[3], back = choose(random, 2) ? random_between(random, 0.5, 8) : random_decade(random, 0, 18);
+  double from[3], back = choose(random, 2) ? random_between(random, 0.5, 8) : random_decade(random, 0, 18);
   if (choose(random, 8) == 0) back = -off;
-  random_vector(random, off, aside);
-  ray->t_min = 0, ray->t_max = INFINITY;
-  for (int axis = 0; axis < 3; axis++) {
-    ray->origin[axis] = at[axis] + aside[axis] - back * size * d[axis];
-    ray->direction[axis] = d[axis];
-  }
+  random_vector(random, off, from);
+  for (int axis = 0; axis < 3; axis++) from[axis] += at[axis] - back * size * d[axis];
+  ray_along(from, d, ray);
 }
 
 void ray_round(struct random *random, const double at[3], double off, double size, struct ray *ray)
@@ -40,9 +34,9 @@ double ring_radius(struct random *random, double size)
 
 /* Places a closed model: as it is, or turned, or with the point at (u,v) of its patch 0 moved to the middle, where rays
  * next to it have all their digits. */
-static void place_model(struct random *random, struct model *made, double u, double v, struct situation *s)
+static void place_model(struct random *random, struct closed_model *made, double u, double v, struct situation *s)
 {
-  struct model model = *made;
+  struct closed_model model = *made;
   struct placement placement;
   const double scale = choose(random, 3) ? 1 : random_decade(random, -6, 6);
   placement_random(random, scale, choose(random, 2) ? scale * random_decade(random, -3, 3) : 0, &placement);
@@ -61,8 +55,8 @@ static void place_model(struct random *random, struct model *made, double u, dou
 
 void place_body(struct random *random, size_t index, double u, double v, struct situation *s)
 {
-  static void (*const bodies[])(struct model *) = {model_ball, model_torus, model_dome};
-  struct model model;
+  static void (*const bodies[])(struct closed_model *) = {model_ball, model_torus, model_dome};
+  struct closed_model model;
   bodies[index % 3](&model);
   place_model(random, &model, u, v, s);
 }
@@ -84,7 +78,7 @@ static void rays_round(struct random *random, double u, double v, struct situati
 }
 
 /* Makes patch 0 one whose row u = 0 is one point: of the teapot, one of the lid's or the bottom's. */
-static void pole_first(struct random *random, struct model *model)
+static void pole_first(struct random *random, struct closed_model *model)
 {
   for (;;) {
     const size_t n = choose(random, model->count);
@@ -100,8 +94,8 @@ static void pole_first(struct random *random, struct model *model)
 
 void place_pole(struct random *random, size_t index, struct situation *s)
 {
-  static void (*const bodies_with_poles[])(struct model *) = {model_ball, model_dome, model_teapot};
-  struct model model;
+  static void (*const bodies_with_poles[])(struct closed_model *) = {model_ball, model_dome, model_teapot};
+  struct closed_model model;
   bodies_with_poles[index % 3](&model);
   pole_first(random, &model);
   place_model(random, &model, 0, 0, s);

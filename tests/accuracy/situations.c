@@ -25,24 +25,11 @@ static void rays_at_patch(struct random *random, struct situation *s)
   }
 }
 
-/* u and v of patch 0 exchanged. */
-static void transpose(struct situation *s)
-{
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < i; j++) {
-      double p[3];
-      memcpy(p, point(s, i, j), sizeof p);
-      memcpy(point(s, i, j), point(s, j, i), sizeof p);
-      memcpy(point(s, j, i), p, sizeof p);
-    }
-  }
-}
-
 /* ---- the classes ---- */
 
 static void apex(struct random *random, size_t index, struct situation *s)
 {
-  struct model model;
+  struct closed_model model;
   model_dome(&model);
   s->count = model.count;
   memcpy(s->P, model.P, sizeof s->P);
@@ -67,7 +54,7 @@ static void symmetry(struct random *random, size_t index, struct situation *s)
       point(s, 3 - i, j)[0] = -point(s, i, j)[0];
     }
   }
-  if (index % 2) transpose(s);
+  if (index % 2) transpose(s->P[0]);
   for (int n = 0; n < RAYS; n++) {
     double origin[3], target[3];
     random_vector(random, 4, origin);
@@ -96,26 +83,15 @@ static void in_plane(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* Bilinear corners with whole coordinates, raised to bidegree (3,3) exactly (the coordinates are multiples of 9). */
+/* Bilinear, with whole coordinates that are multiples of 9, so that this is exact. */
 static void bilinear(struct random *random, double P[4][4][3])
 {
-  double corner[2][2][3];
-  for (int a = 0; a < 2; a++) {
-    for (int b = 0; b < 2; b++) {
-      corner[a][b][0] = a ? 9 : -9;
-      corner[a][b][1] = b ? 9 : -9;
-      corner[a][b][2] = 9 * (double)((int)(random_bits(random) % 5) - 2);
-    }
+  for (int n = 0; n < 4; n++) {
+    double *corner = P[n / 2][n % 2];
+    corner[0] = n / 2 ? 9 : -9, corner[1] = n % 2 ? 9 : -9;
+    corner[2] = 9 * (double)((int)(random_bits(random) % 5) - 2);
   }
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      for (int axis = 0; axis < 3; axis++) {
-        P[i][j][axis] = ((3 - i) * ((3 - j) * corner[0][0][axis] + j * corner[0][1][axis]) +
-                         i * ((3 - j) * corner[1][0][axis] + j * corner[1][1][axis])) /
-                        9;
-      }
-    }
-  }
+  raise_net(1, P);
 }
 
 static void ruling(struct random *random, size_t index, struct situation *s)
@@ -139,23 +115,13 @@ static void elevated(struct random *random, size_t index, struct situation *s)
   s->count = 1;
   if (index % 2) {
     bilinear(random, s->P[0]);
-  } else { /* biquadratic: multiples of 9 raised in both directions */
-    double Q[3][3][3], R[4][3][3];
-    for (int i = 0; i < 3; i++) {
-      for (int j = 0; j < 3; j++) {
-        for (int axis = 0; axis < 3; axis++) Q[i][j][axis] = 9 * (double)((int)(random_bits(random) % 9) - 4);
-        Q[i][j][0] += 36 * (i - 1);
-        Q[i][j][1] += 36 * (j - 1);
-      }
+  } else { /* biquadratic: multiples of 9 */
+    for (int n = 0; n < 9; n++) {
+      double *p = point(s, n / 3, n % 3);
+      for (int axis = 0; axis < 3; axis++) p[axis] = 9 * (double)((int)(random_bits(random) % 9) - 4);
+      p[0] += 36 * (n / 3 - 1), p[1] += 36 * (n % 3 - 1);
     }
-    for (int j = 0; j < 3; j++)
-      for (int axis = 0; axis < 3; axis++)
-        for (int i = 0; i < 4; i++)
-          R[i][j][axis] = (i * Q[i ? i - 1 : 0][j][axis] + (3 - i) * Q[i < 3 ? i : 2][j][axis]) / 3;
-    for (int i = 0; i < 4; i++)
-      for (int axis = 0; axis < 3; axis++)
-        for (int j = 0; j < 4; j++)
-          s->P[0][i][j][axis] = (j * R[i][j ? j - 1 : 0][axis] + (3 - j) * R[i][j < 3 ? j : 2][axis]) / 3;
+    raise_net(2, s->P[0]);
   }
   for (int k = 0; k < 16; k++)
     for (int axis = 0; axis < 3; axis++) s->P[0][k / 4][k % 4][axis] /= 8;
@@ -248,13 +214,14 @@ static void line_or_point(struct random *random, size_t index, struct situation 
   rays_at_corners(s);
 }
 
-/* Back over itself, along u or along v. */
+/* Back over itself, along u, along v or along both: then a ray meets it up to 18 times. */
 static void folded(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1;
   gentle(random, 1, s->P[0]);
   for (int j = 0; j < 4; j++) point(s, 1, j)[0] += 4, point(s, 2, j)[0] -= 4;
-  if (index % 2) transpose(s);
+  for (int i = 0; i < 4 && index % 3 == 0; i++) point(s, i, 1)[1] += 4, point(s, i, 2)[1] -= 4;
+  if (index % 2) transpose(s->P[0]);
   rays_at_patch(random, s);
 }
 
@@ -270,7 +237,7 @@ static void cusped(struct random *random, size_t index, struct situation *s)
       if (index % 4 > 1) point(s, i, j)[2] = cusp[i] * cusp[i] * point(s, 0, j)[2]; /* in z too: both derivatives */
     }
   }
-  if (index % 2) transpose(s);
+  if (index % 2) transpose(s->P[0]);
   rays_at_patch(random, s);
   for (int n = 0; n < RAYS / 4; n++) {
     double target[3], v = random_unit(random);
@@ -291,7 +258,7 @@ static void self_intersecting(struct random *random, size_t index, struct situat
       memcpy(point(s, i, j), p, sizeof p);
     }
   }
-  if (index % 2) transpose(s);
+  if (index % 2) transpose(s->P[0]);
   rays_at_patch(random, s);
   for (int n = 0; n < RAYS / 4; n++) {
     const double target[3] = {0, random_between(random, -1.5, 1.5), 1};
@@ -429,11 +396,8 @@ static void on_surface(struct random *random, size_t index, struct situation *s)
     double start[3], direction[3], off = n % 2 ? 0 : decade(index, 3, 17);
     net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), start);
     random_vector(random, 1, direction);
-    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
-    for (int axis = 0; axis < 3; axis++) {
-      s->rays[n].origin[axis] = start[axis] + off * direction[axis];
-      s->rays[n].direction[axis] = direction[axis];
-    }
+    for (int axis = 0; axis < 3; axis++) start[axis] += off * direction[axis];
+    ray_along(start, direction, &s->rays[n]);
   }
 }
 

@@ -1,12 +1,10 @@
-/* See thresholds.h. */
-#include "accuracy/thresholds.h"
+/* Situations on both sides of the intersector's thresholds. */
+#include "accuracy/generators.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "accuracy/cycle_nets.h"
-#include "accuracy/generate.h"
-#include "accuracy/lattice.h"
 
 enum { RAYS = SITUATION_RAYS };
 
@@ -20,11 +18,8 @@ void threshold_aim(struct random *random, const double P[4][4][3], double size, 
   net_point(P, u, v, at);
   random_direction(random, d);
   const double off = choose(random, 2) ? size * random_decade(random, 0, 17) : 0, back = random_between(random, 0.5, 8);
-  for (int axis = 0; axis < 3; axis++) {
-    ray->direction[axis] = d[axis];
-    ray->origin[axis] = at[axis] + off * random_between(random, -1, 1) - back * size * d[axis];
-  }
-  ray->t_min = 0, ray->t_max = INFINITY;
+  for (int axis = 0; axis < 3; axis++) at[axis] += off * random_between(random, -1, 1) - back * size * d[axis];
+  ray_along(at, d, ray);
 }
 
 static void aim(struct random *random, const struct situation *s, double size, struct ray *ray)
@@ -56,29 +51,14 @@ void threshold_directions(struct random *random, size_t index, struct situation 
 /* A net of degree `degree` in both parameters, raised to 3, with this much noise. */
 static void raised(struct random *random, int degree, double noise, double P[4][4][3])
 {
-  double low[4][4][3], row[4][4][3];
   for (int i = 0; i <= degree; i++)
-    for (int j = 0; j <= degree; j++)
-      for (int axis = 0; axis < 3; axis++)
-        low[i][j][axis] = (axis == 0   ? 3.0 * i / degree
-                           : axis == 1 ? 3.0 * j / degree
-                                       : 0) +
-                          random_between(random, -1, 1);
-  for (int own = degree; own < 3; own++) { /* from degree `own` to own + 1, of both parameters */
-    for (int i = 0; i <= own + 1; i++)
-      for (int j = 0; j <= own; j++)
-        for (int axis = 0; axis < 3; axis++)
-          row[i][j][axis] = (i ? i * low[i - 1][j][axis] / (own + 1) : 0) +
-                            (i <= own ? (own + 1 - i) * low[i][j][axis] / (own + 1) : 0);
-    for (int i = 0; i <= own + 1; i++)
-      for (int j = 0; j <= own + 1; j++)
-        for (int axis = 0; axis < 3; axis++)
-          low[i][j][axis] = (j ? j * row[i][j - 1][axis] / (own + 1) : 0) +
-                            (j <= own ? (own + 1 - j) * row[i][j][axis] / (own + 1) : 0);
-  }
+    for (int j = 0; j <= degree; j++) {
+      random_vector(random, 1, P[i][j]);
+      P[i][j][0] += 3.0 * i / degree, P[i][j][1] += 3.0 * j / degree;
+    }
+  raise_net(degree, P);
   for (int k = 0; k < 16; k++)
-    for (int axis = 0; axis < 3; axis++)
-      P[k / 4][k % 4][axis] = low[k / 4][k % 4][axis] + noise * random_between(random, -1, 1);
+    for (int axis = 0; axis < 3; axis++) P[k / 4][k % 4][axis] += noise * random_between(random, -1, 1);
 }
 
 /* Of degree 1 or 2 but for some noise, so that a degree is just seen, or not; and leaves that are nearly bilinear. */
@@ -105,12 +85,7 @@ void threshold_turned(struct random *random, size_t index, struct situation *s)
 {
   s->count = 2;
   gentle(random, 1, s->P[0]);
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      const int a = index & 1 ? 3 - i : i, b = index & 2 ? 3 - j : j;
-      memcpy(s->P[1][i][j], s->P[0][index & 4 ? b : a][index & 4 ? a : b], sizeof s->P[1][i][j]);
-    }
-  }
+  in_order(s->P[0], (int)(index % 8), s->P[1]);
   const double off = choose(random, 2) ? random_decade(random, 1, 17) : 0;
   for (int k = 0; k < 16; k++) s->P[1][k / 4][k % 4][2] += off;
   aim_all(random, 1, s);

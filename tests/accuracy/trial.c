@@ -8,9 +8,9 @@
 
 #include "accuracy/models.h"
 #include "base/diagnostics.h"
-#include "base/sort.h"
 #include "cmocka_test.h"
 #include "language/language.h"
+#include "method_of.h"
 
 enum { MOST_SHOWN = 10 };
 
@@ -24,7 +24,6 @@ enum { MOST_SHOWN = 10 };
 
 static void start_intersector(struct trial *trial)
 {
-  for (size_t n = 0; n < trial->scene.solver_count; n++) trial->bare |= !trial->scene.solvers[n].polish;
   assert_int_equal(intersector_create(&trial->scene, &trial->intersector), STATUS_OK);
   assert_int_equal(tracer_create(trial->intersector, &trial->tracer), STATUS_OK);
 }
@@ -41,44 +40,37 @@ static void trial_start(struct trial *trial)
   start_intersector(trial);
 }
 
-void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct method *solver)
+/* Copies the patches; all have the first solver. */
+static void own_patches(struct trial *trial, size_t count)
 {
-  memset(trial, 0, sizeof *trial);
-  if (solver) trial->solver = *solver;
-  else method_default(solver_at(0), &trial->solver);
-  trial->own_patches = calloc(count ? count : 1, sizeof *trial->own_patches);
+  trial->own_patches = calloc(count + 1, sizeof *trial->own_patches);
   assert_non_null(trial->own_patches);
+  trial->scene.patches = trial->own_patches, trial->scene.patch_count = count;
+  trial->scene.solvers = &trial->solver, trial->scene.solver_count = 1;
+}
+
+void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const char *solver)
+{
+  *trial = (struct trial){.solver = method_of(solver ? solver : solver_at(0)->name)};
+  own_patches(trial, count);
   for (size_t n = 0; n < count; n++) memcpy(trial->own_patches[n].P, P[n], sizeof P[n]);
-  trial->scene.patches = trial->own_patches;
-  trial->scene.patch_count = count;
-  trial->scene.solvers = &trial->solver;
-  trial->scene.solver_count = 1;
   trial_start(trial);
 }
 
-/* Patches of which all have the first solver. The caller frees them. */
-static struct scene_patch *patches_like(const struct scene *scene)
+void trial_create_beside(struct trial *trial, const struct trial *first, const char *solver)
 {
-  struct scene_patch *patches = calloc(scene->patch_count + 1, sizeof *patches);
-  assert_non_null(patches);
-  for (size_t n = 0; n < scene->patch_count; n++) patches[n] = scene->patches[n], patches[n].solver = 0;
-  return patches;
-}
-
-void trial_create_beside(struct trial *trial, const struct trial *first, const struct method *solver)
-{
+  const struct scene *scene = &first->scene;
   *trial = (struct trial){
-    .scene = first->scene, .solver = *solver, .reference = first->reference, .reference_borrowed = true};
-  trial->own_patches = trial->scene.patches = patches_like(&first->scene);
-  trial->scene.solvers = &trial->solver;
-  trial->scene.solver_count = 1;
+    .scene = *scene, .solver = method_of(solver), .reference = first->reference, .reference_borrowed = true};
+  own_patches(trial, scene->patch_count);
+  for (size_t n = 0; n < scene->patch_count; n++)
+    trial->own_patches[n] = scene->patches[n], trial->own_patches[n].solver = 0;
   start_intersector(trial);
 }
 
 void trial_of_scene(struct trial *trial, const struct scene *scene)
 {
-  memset(trial, 0, sizeof *trial);
-  trial->scene = *scene;
+  *trial = (struct trial){.scene = *scene};
   trial_start(trial);
 }
 
@@ -105,21 +97,52 @@ void trial_destroy(struct trial *trial)
   free(trial->own_patches);
 }
 
+/* ---- prints ---- */
+
+void print_ray(const struct ray *ray)
+{
+  const double *o = ray->origin, *d = ray->direction;
+  printf("  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", o[0], o[1], o[2], d[0], d[1], d[2]);
+  if (ray->t_min > 0 || isfinite(ray->t_max)) printf("  from %.17g to %.17g\n", ray->t_min, ray->t_max);
+}
+
+void print_hit(const char *name, const struct hit *hit)
+{
+  printf("  %s: %s ", name, hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
+  if (hit->patch == HIT_NONE) printf("miss\n");
+  else printf("t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
+}
+
+void print_patches(const struct scene *scene)
+{
+  for (size_t n = 0; n < scene->patch_count; n++) {
+    char solver[METHOD_TEXT_SIZE];
+    method_text(&scene->solvers[scene->patches[n].solver], solver, sizeof solver);
+    printf("bicubic_patch { type 1 flatness 0 u_steps 5 v_steps 5\n");
+    for (int k = 0; k < 16; k++) {
+      const double *p = scene->patches[n].P[k / 4][k % 4];
+      printf("  <%.17g, %.17g, %.17g>%s\n", p[0], p[1], p[2], k < 15 ? "," : "");
+    }
+    printf("  solver %s }\n", solver);
+  }
+}
+
+/* ---- one answer ---- */
+
 static void show(const char *what, const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
-                 const struct facts *facts, struct tally *tally)
+                 struct tally *tally)
 {
   static const char *const verdicts[] = {"miss", "hit", "grazing"};
-  if (tally->quiet || tally->shown++ >= MOST_SHOWN) return;
-  printf("%s: %s\n  ray %a %a %a  %a %a %a\n", tally->name, what, ray->origin[0], ray->origin[1], ray->origin[2],
-         ray->direction[0], ray->direction[1], ray->direction[2]);
+  if (tally->shown++ >= MOST_SHOWN) return;
+  printf("%s: %s\n", tally->name, what);
+  print_ray(ray);
   printf("  reference: %s", verdicts[truth->verdict]);
   if (truth->patch != REFERENCE_NONE)
-    printf(" t %.17g u %.17g v %.17g patch %u incidence %.3g%s", (double)truth->t, (double)truth->u, (double)truth->v,
-           (unsigned)truth->patch, facts->incidence, truth->shared ? " (shared edge)" : "");
+    printf(" t %.17g u %.17g v %.17g patch %u%s", (double)truth->t, (double)truth->u, (double)truth->v,
+           (unsigned)truth->patch, truth->shared ? " (shared edge)" : "");
   if (truth->verdict == REFERENCE_GRAZING) printf(" (nothing before t %.17g)", truth->t_first);
-  printf("\n  intersector: %s", hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
-  if (hit->patch == HIT_NONE) printf(" miss\n");
-  else printf(" t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
+  printf("\n");
+  print_hit("intersector", hit);
 }
 
 static double largest_coordinate(const struct trial *trial, const struct ray *ray, const struct hit *hit)
@@ -155,10 +178,8 @@ struct facts_floor trial_floor(const struct reference *reference, const struct r
 }
 
 /* How far in t the answer may be from the reference's, whose floor is given, and be the same hit still. */
-static double same_within(const struct trial *trial, const struct ray *ray, const struct hit *hit, double t,
-                          double floor)
+static double same_within(const struct trial *trial, const struct ray *ray, const struct hit *hit, double floor)
 {
-  if (trial->bare) return fmax(TRIAL_BARE_SAME * t, TRIAL_SAME_FLOORS * floor);
   double allowed = TRIAL_SAME_FLOORS * floor;
   if (hit->certainty == CERTAINTY_GRAZING)
     allowed += TRIAL_NEAR * largest_coordinate(trial, ray, hit) / direction_length(ray);
@@ -184,16 +205,6 @@ static bool other_sheet(const struct trial *trial, const struct ray *ray, const 
   const double off = facts_residual(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t,
                                     hit->u, hit->v);
   return off <= OTHER_SHEET_NEAR * largest_coordinate(trial, ray, hit);
-}
-
-static void add_t_error(struct tally *tally, double error)
-{
-  if (tally->t_count == tally->t_capacity) {
-    tally->t_capacity = tally->t_capacity ? 2 * tally->t_capacity : 1024;
-    tally->t_errors = realloc(tally->t_errors, tally->t_capacity * sizeof *tally->t_errors);
-    assert_non_null(tally->t_errors);
-  }
-  tally->t_errors[tally->t_count++] = error;
 }
 
 /* The largest k-th difference of control points along both parameters, times what makes it a bound of that
@@ -251,36 +262,26 @@ static void measure_normal(const struct trial *trial, const struct ray *ray, con
     facing += facts->normal[axis] * ray->direction[axis];
   }
   if (fabs(facing) <= bound * direction_length(ray)) return; /* seen edge-on: which side is seen is rounding */
-  tally->worst_normal = fmax(tally->worst_normal, off);
-  tally->worst_normal_floor = fmax(tally->worst_normal_floor, off / bound);
-  if (off > bound && tally->bad_normal++ == 0) show("wrong normal", ray, hit, truth, facts, tally);
+  if (off > bound && tally->bad_normal++ == 0) show("wrong normal", ray, hit, truth, tally);
 }
 
 /* Both found the same hit: how well. */
 static void measure(const struct trial *trial, const struct ray *ray, const struct hit *hit,
                     const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
-  double reach = 0;
-  for (int axis = 0; axis < 3; axis++) reach = fmax(reach, fabs(ray->origin[axis]));
-  const double dt = (double)quad_abs(hit->t - truth->t), origin_rounding = DOUBLE_UNIT * reach / direction_length(ray);
-  if (hit->certainty == CERTAINTY_GRAZING) { /* a root that rounding can split or remove: no first-order floor holds */
-    tally->worst_t_grazing = fmax(tally->worst_t_grazing, dt / (double)truth->t);
-    return;
-  }
-  add_t_error(tally, dt / (double)truth->t);
+  /* the root of a grazing hit may be split or removed by rounding: no first-order floor holds */
+  if (hit->certainty == CERTAINTY_GRAZING) return;
+  const double dt = (double)quad_abs(hit->t - truth->t);
   tally->worst_t_floor = fmax(tally->worst_t_floor, dt / facts->data.t);
-  tally->worst_t_local = fmax(tally->worst_t_local, dt / (facts->local.t + origin_rounding));
   bool beyond = dt > TRIAL_FLOORS * facts->data.t;
   const bool other = other_sheet(trial, ray, hit, truth);
   if (hit->patch == truth->patch && !truth->shared && !other) {
     const double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
     tally->worst_u_floor = fmax(tally->worst_u_floor, du / facts->data.u);
     tally->worst_v_floor = fmax(tally->worst_v_floor, dv / facts->data.v);
-    tally->worst_u_local = fmax(tally->worst_u_local, du / facts->local.u);
-    tally->worst_v_local = fmax(tally->worst_v_local, dv / facts->local.v);
     beyond = beyond || du > TRIAL_FLOORS * facts->data.u || dv > TRIAL_FLOORS * facts->data.v;
   }
-  if (beyond) show("T, U or V beyond its floor", ray, hit, truth, facts, tally);
+  if (beyond) show("T, U or V beyond its floor", ray, hit, truth, tally);
   if (hit->patch != truth->patch || other) return;
   measure_normal(trial, ray, hit, truth, facts, tally);
 }
@@ -289,16 +290,14 @@ static void judge_hit(const struct trial *trial, const struct ray *ray, const st
                       const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
   const double difference = (double)((quad)hit->t - truth->t);
-  if (fabs(difference) <= same_within(trial, ray, hit, (double)truth->t, facts->data.t)) {
+  if (fabs(difference) <= same_within(trial, ray, hit, facts->data.t)) {
     measure(trial, ray, hit, truth, facts, tally);
   } else if (difference > 0) {
     tally->lost++;
-    show("lost, a later hit is answered", ray, hit, truth, facts, tally);
-  } else if (excused(trial, ray, hit)) {
-    tally->over++;
-  } else {
+    show("lost, a later hit is answered", ray, hit, truth, tally);
+  } else if (!excused(trial, ray, hit)) {
     tally->invented++;
-    show("invented, nearer than the first", ray, hit, truth, facts, tally);
+    show("invented, nearer than the first", ray, hit, truth, tally);
   }
 }
 
@@ -307,20 +306,16 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
                           const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
   tally->undecided++;
-  if (hit->certainty == CERTAINTY_CERTAIN) tally->bold++;
   const bool proven = truth->patch != REFERENCE_NONE;
-  if (proven && (hit->patch == HIT_NONE ||
-                 hit->t > (double)truth->t + same_within(trial, ray, hit, (double)truth->t, facts->data.t))) {
+  if (proven && (hit->patch == HIT_NONE || hit->t > (double)truth->t + same_within(trial, ray, hit, facts->data.t))) {
     tally->lost++;
-    tally->holes += hit->patch == HIT_NONE;
-    show("lost behind a grazing one", ray, hit, truth, facts, tally);
+    show("lost behind a grazing one", ray, hit, truth, tally);
   } else if (hit->patch != HIT_NONE && hit->t < truth->t_first) {
     struct facts at;
     facts_find(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t, hit->u, hit->v, &at);
-    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, at.data.t) || excused(trial, ray, hit))
-      return;
+    if (hit->t >= truth->t_first - same_within(trial, ray, hit, at.data.t) || excused(trial, ray, hit)) return;
     tally->invented++;
-    show("invented before a grazing one", ray, hit, truth, facts, tally);
+    show("invented before a grazing one", ray, hit, truth, tally);
   }
 }
 
@@ -332,48 +327,34 @@ static bool in_ranges(const struct ray *ray, const struct hit *hit)
          hit->clearance >= hit->point_error && fabs(facts_length(hit->normal) - 1) <= 8 * DOUBLE_UNIT;
 }
 
-void trial_judge_by(const struct trial *trial, const struct ray *ray, const struct hit *hit,
-                    const struct reference_answer *truth, struct tally *tally)
+static void judge(const struct trial *trial, const struct ray *ray, const struct hit *hit, struct tally *tally)
 {
+  struct reference_answer truth;
   struct facts known, *facts = NULL; /* of the hit that the reference has proven, if any */
-  if (truth->patch != REFERENCE_NONE) {
+  reference_closest(trial->reference, ray->origin, ray->direction, &truth);
+  if (truth.patch != REFERENCE_NONE) {
     facts = &known;
-    facts_find(reference_net(trial->reference, truth->patch), ray->origin, ray->direction, truth->t, truth->u, truth->v,
+    facts_find(reference_net(trial->reference, truth.patch), ray->origin, ray->direction, truth.t, truth.u, truth.v,
                facts);
   }
   tally->rays++;
-  if (hit->certainty == CERTAINTY_GRAZING) tally->grazing++;
+  tally->hits += truth.verdict == REFERENCE_HIT;
+  tally->grazing += hit->certainty == CERTAINTY_GRAZING;
   if (hit->patch != HIT_NONE && !in_ranges(ray, hit)) {
     tally->invented++;
-    show("numbers out of their ranges", ray, hit, truth, facts, tally);
-  } else if (truth->verdict == REFERENCE_GRAZING) {
-    judge_grazing(trial, ray, hit, truth, facts, tally);
-  } else if (truth->verdict == REFERENCE_MISS) {
-    tally->misses++;
-    if (hit->patch == HIT_NONE) return;
-    if (excused(trial, ray, hit)) {
-      tally->over++;
-    } else {
-      tally->invented++;
-      show("invented", ray, hit, truth, facts, tally);
-    }
+    show("numbers out of their ranges", ray, hit, &truth, tally);
+  } else if (truth.verdict == REFERENCE_GRAZING) {
+    judge_grazing(trial, ray, hit, &truth, facts, tally);
+  } else if (truth.verdict == REFERENCE_MISS) {
+    if (hit->patch == HIT_NONE || excused(trial, ray, hit)) return;
+    tally->invented++;
+    show("invented", ray, hit, &truth, tally);
+  } else if (hit->patch == HIT_NONE) {
+    tally->lost++;
+    show("lost", ray, hit, &truth, tally);
   } else {
-    tally->hits++;
-    if (hit->patch == HIT_NONE) {
-      tally->lost++;
-      tally->holes++;
-      show("lost", ray, hit, truth, facts, tally);
-    } else {
-      judge_hit(trial, ray, hit, truth, facts, tally);
-    }
+    judge_hit(trial, ray, hit, &truth, facts, tally);
   }
-}
-
-void trial_judge(const struct trial *trial, const struct ray *ray, const struct hit *hit, struct tally *tally)
-{
-  struct reference_answer truth;
-  reference_closest(trial->reference, ray->origin, ray->direction, &truth);
-  trial_judge_by(trial, ray, hit, &truth, tally);
 }
 
 void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struct tally *tally)
@@ -382,45 +363,20 @@ void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struc
     const size_t size = count - first < PACKET_SIZE ? count - first : PACKET_SIZE;
     struct hit hits[PACKET_SIZE];
     tracer_closest(trial->tracer, size, rays + first, hits);
-    for (size_t n = 0; n < size; n++) trial_judge(trial, &rays[first + n], &hits[n], tally);
+    for (size_t n = 0; n < size; n++) judge(trial, &rays[first + n], &hits[n], tally);
   }
 }
 
-static double quantile(struct tally *tally, double share)
+void tally_assert(const struct tally *tally)
 {
-  if (tally->t_count == 0) return 0;
-  const size_t index = (size_t)(share * (double)(tally->t_count - 1));
-  return tally->t_errors[index];
-}
-
-void tally_print(struct tally *tally)
-{
-  if (tally->t_count) sort_numbers(tally->t_errors, tally->t_count);
-  printf("%s: %zu rays, %zu hits, %zu misses, %zu undecided; lost %zu, invented %zu; said grazing %zu (extra hits "
-         "%zu), certain where undecided %zu\n",
-         tally->name, tally->rays, tally->hits, tally->misses, tally->undecided, tally->lost, tally->invented,
-         tally->grazing, tally->over, tally->bold);
-  printf("  T relative: median %.2g, 99 %% %.2g, max %.2g; in data floors: T %.2g U %.2g V %.2g; in local floors: "
-         "T %.2g U %.2g V %.2g; normal %.2g, %.2g of its bound; "
-         "T of grazing hits %.2g\n",
-         quantile(tally, 0.5), quantile(tally, 0.99), quantile(tally, 1), tally->worst_t_floor, tally->worst_u_floor,
-         tally->worst_v_floor, tally->worst_t_local, tally->worst_u_local, tally->worst_v_local, tally->worst_normal,
-         tally->worst_normal_floor, tally->worst_t_grazing);
-}
-
-void tally_assert(struct tally *tally)
-{
+  printf("%s: %zu rays, %zu hits, %zu undecided, %zu grazing; lost %zu, invented %zu; T, U, V off by %.2g, %.2g, %.2g "
+         "floors\n",
+         tally->name, tally->rays, tally->hits, tally->undecided, tally->grazing, tally->lost, tally->invented,
+         tally->worst_t_floor, tally->worst_u_floor, tally->worst_v_floor);
   assert_true(tally->rays > 0);
   assert_int_equal(tally->lost, 0);
   assert_int_equal(tally->invented, 0);
   assert_int_equal(tally->bad_normal, 0);
-  if (tally->worst_t_floor > TRIAL_FLOORS || tally->worst_u_floor > TRIAL_FLOORS || tally->worst_v_floor > TRIAL_FLOORS)
-    fail_msg("%s: T, U, V off by %g, %g, %g floors, %d allowed", tally->name, tally->worst_t_floor,
-             tally->worst_u_floor, tally->worst_v_floor, TRIAL_FLOORS);
-}
-
-void tally_free(struct tally *tally)
-{
-  free(tally->t_errors);
-  memset(tally, 0, sizeof *tally);
+  assert_true(tally->worst_t_floor <= TRIAL_FLOORS && tally->worst_u_floor <= TRIAL_FLOORS &&
+              tally->worst_v_floor <= TRIAL_FLOORS);
 }

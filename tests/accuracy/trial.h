@@ -16,30 +16,20 @@ struct trial {
   struct tracer *tracer;
   struct reference *reference;
   bool reference_borrowed;
-  bool bare; /* some patch has `polish off` */
   struct scene_patch *own_patches;
 };
 
-/* The findings of any number of trials. Zero-initialise; free with tally_free. */
+/* The findings of any number of trials. Zero-initialise. */
 struct tally {
   const char *name;
-  size_t rays, hits, misses; /* by the reference */
-  size_t undecided;          /* the reference said grazing */
-  size_t grazing;            /* the intersector said grazing */
-  size_t bold;               /* the intersector said certain where the reference said grazing */
-  size_t lost;               /* the intersector answers a miss or a later hit than a proven one */
-  size_t holes;              /* those of `lost` answered by a miss */
-  size_t invented;           /* the intersector answers a hit where the reference proves none, or before that */
-  size_t over;               /* the same, but called grazing, and TRIAL_NEAR the ray: allowed, see intersect.h */
-  size_t bad_normal;         /* N differs from the true normal by more than its floors allow, see trial.c */
-  double worst_t_floor, worst_u_floor, worst_v_floor; /* errors in units of the data floor */
-  double worst_t_local, worst_u_local, worst_v_local; /* of the local floor (T: plus one rounding of the origin) */
-  double worst_normal, worst_normal_floor;            /* absolute; in units of its bound */
-  double worst_t_grazing; /* relative error of T of grazing hits; all the other errors are of certain ones */
-  double *t_errors;       /* relative errors of T of the hits on which both agree */
-  size_t t_count, t_capacity;
-  size_t shown; /* disagreements printed so far */
-  bool quiet;   /* set by the caller: print none */
+  size_t rays, hits; /* by the reference */
+  size_t undecided;  /* the reference said grazing */
+  size_t grazing;    /* the intersector said grazing */
+  size_t lost;       /* the intersector answers a miss or a later hit than a proven one */
+  size_t invented; /* it answers a hit where the reference proves none, or before that, and not a grazing one so near */
+  size_t bad_normal; /* N differs from the true normal by more than its floors allow, see trial.c */
+  double worst_t_floor, worst_u_floor, worst_v_floor; /* errors of certain hits in units of the data floor */
+  size_t shown;                                       /* disagreements printed so far */
 };
 
 /* How near ray and patch are at a grazing answer, relative to the largest coordinate of both. A box that subdivision
@@ -55,12 +45,7 @@ struct tally {
  * d/s > sqrt(d/c)/2. TRIAL_NEAR is added to that. */
 #define TRIAL_SAME_FLOORS 64
 
-/* Without polish nothing is proven. What counts is how often the hit is found, within this relative distance of t: 100
- * times the square root of 2^-53, the error where roots are nearly double. */
-#define TRIAL_BARE_SAME 1e-6
-
-/* Required of certain hits: relative, and in floors. */
-#define TRIAL_T_RELATIVE 1e-12
+/* Required of certain hits, in floors. */
 #define TRIAL_FLOORS 4
 
 /* The largest coordinate of the origin and of the point at t, in units of t. */
@@ -74,12 +59,12 @@ double trial_size(const struct ray *ray, double t);
 struct facts_floor trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t,
                                double u, double v);
 
-/* Makes intersector, tracer and reference for `count` nets. solver may be NULL (the default). Aborts the running cmocka
- * test on failure. */
-void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct method *solver);
+/* Makes intersector, tracer and reference for `count` nets. `solver` is its text, or NULL (the default). Aborts the
+ * running cmocka test on failure. */
+void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const char *solver);
 
-/* The patches of `first` with another solver. Borrows patches and reference, so `first` must outlive it. */
-void trial_create_beside(struct trial *trial, const struct trial *first, const struct method *solver);
+/* The patches of `first` with another solver. Borrows the reference, so `first` must outlive it. */
+void trial_create_beside(struct trial *trial, const struct trial *first, const char *solver);
 
 /* As trial_create, for a scene, which is borrowed. */
 void trial_of_scene(struct trial *trial, const struct scene *scene);
@@ -92,18 +77,12 @@ struct scene *trial_load(const char *path, const char *solver, int width, int he
 /* Asks both for `count` rays (any number) and adds the results to the tally. Prints the first disagreements. */
 void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struct tally *tally);
 
-/* Compares one answer. For answers that came another way (the command). */
-void trial_judge(const struct trial *trial, const struct ray *ray, const struct hit *hit, struct tally *tally);
+/* Prints the counts; fails the running cmocka test if anything is lost, invented or beyond its bound. */
+void tally_assert(const struct tally *tally);
 
-/* As trial_judge, if the caller has asked the trial's reference. */
-void trial_judge_by(const struct trial *trial, const struct ray *ray, const struct hit *hit,
-                    const struct reference_answer *truth, struct tally *tally);
-
-/* Prints one line of counts, and one of errors. */
-void tally_print(struct tally *tally);
-
-/* Fails the running cmocka test if anything is lost, invented or beyond its bound. */
-void tally_assert(struct tally *tally);
-void tally_free(struct tally *tally);
+/* Print a ray, an answer, and patches as a scene has them. */
+void print_ray(const struct ray *ray);
+void print_hit(const char *name, const struct hit *hit);
+void print_patches(const struct scene *scene);
 
 #endif

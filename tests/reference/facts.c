@@ -4,8 +4,6 @@
 #include <float.h>
 #include <math.h>
 
-enum { FOOT_STEPS = 6 };
-
 static struct quad_net net_of(const double P[4][4][3], int axis)
 {
   struct quad_net net;
@@ -36,7 +34,7 @@ void facts_find(const double P[4][4][3], const double origin[3], const double di
                 struct facts *out)
 {
   quad M[3][3], normal[3];
-  double data[3], local[3], whole[3];
+  double data[3], whole[3];
   for (int axis = 0; axis < 3; axis++) {
     const struct quad_net net = net_of(P, axis);
     struct quad_net sizes, spread;
@@ -49,11 +47,9 @@ void facts_find(const double P[4][4][3], const double origin[3], const double di
     M[axis][1] = jet.dv;
     M[axis][2] = -(quad)direction[axis];
     data[axis] = (double)quad_net_jet(&sizes, u, v).value + fabs(origin[axis]) + fabs((double)t * direction[axis]);
-    local[axis] = (double)quad_net_jet(&spread, u, v).value;
     whole[axis] = (double)quad_net_magnitude(&spread);
   }
   floor_bound(M, data, (double)t, (double)u, (double)v, &out->data);
-  floor_bound(M, local, (double)t, (double)u, (double)v, &out->local);
   floor_bound(M, whole, (double)t, (double)u, (double)v, &out->whole);
 
   quad square = 0, along = 0, length = 0, tangents[2] = {0};
@@ -85,25 +81,3 @@ double facts_residual(const double P[4][4][3], const double origin[3], const dou
 }
 
 double facts_length(const double a[3]) { return hypot(hypot(a[0], a[1]), a[2]); }
-
-static quad clamp(quad x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
-
-double facts_distance(const double P[4][4][3], const double point[3], double u, double v)
-{
-  const struct quad_net net[3] = {net_of(P, 0), net_of(P, 1), net_of(P, 2)};
-  quad x = u, y = v, least = -1;
-  for (int step = 0; step < FOOT_STEPS; step++) {
-    quad square = 0, uu = 0, uv = 0, vv = 0, ru = 0, rv = 0;
-    for (int axis = 0; axis < 3; axis++) {
-      const struct quad_jet jet = quad_net_jet(&net[axis], x, y);
-      const quad off = jet.value - point[axis];
-      square += off * off, ru += off * jet.du, rv += off * jet.dv;
-      uu += jet.du * jet.du, uv += jet.du * jet.dv, vv += jet.dv * jet.dv;
-    }
-    if (least < 0 || square < least) least = square;
-    const quad determinant = uu * vv - uv * uv;
-    if (!(determinant > 0)) break;
-    x = clamp(x - (vv * ru - uv * rv) / determinant), y = clamp(y - (uu * rv - uv * ru) / determinant);
-  }
-  return (double)quad_sqrt(least);
-}

@@ -9,10 +9,9 @@
 /* How far rounding alone can move a hit: a first-order bound.
  *
  * S(u,v) - o - t d = 0 is solved in double with residuals known only to `terms` units of rounding, so (u,v,t) moves
- * by at most |[S_u S_v -d]^-1| (2^-53 terms), entry by entry, and each result is rounded once. Three choices of terms:
+ * by at most |[S_u S_v -d]^-1| (2^-53 terms), entry by entry, and each result is rounded once. Two choices of terms:
  * data:  sum B_i B_j |P_ij| + |o| + |t d|   every input coordinate changed by one rounding;
- * local: sum B_i B_j |P_ij - S|             the origin moved to the hit first, exactly: only the bicubic is rounded;
- * whole: max |P_ij - S|                     the same, by roundings of the patch's extent. */
+ * whole: max |P_ij - S|                     the origin moved to the hit first, exactly: roundings of the patch's extent. */
 struct facts_floor {
   double t, u, v;
 };
@@ -22,7 +21,7 @@ struct facts {
   bool has_normal;  /* false if S_u x S_v vanishes (a collapsed pole) */
   double normal[3]; /* unit, facing the origin */
   double incidence; /* |normal . direction| / |direction|: 0 is tangent */
-  struct facts_floor data, local, whole;
+  struct facts_floor data, whole;
 };
 void facts_find(const double P[4][4][3], const double origin[3], const double direction[3], quad t, quad u, quad v,
                 struct facts *out);
@@ -34,9 +33,5 @@ double facts_residual(const double P[4][4][3], const double origin[3], const dou
 
 /* Of a vector, from one end of the doubles to the other: no square is formed. */
 double facts_length(const double a[3]);
-
-/* The distance of `point` from the patch at a foot next to (u,v), found by Gauss' and Newton's method and clamped to
- * the square: no less than the true distance. */
-double facts_distance(const double P[4][4][3], const double point[3], double u, double v);
 
 #endif
