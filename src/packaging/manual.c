@@ -1,11 +1,13 @@
-/* Manual pages (man(7)), made from the help texts. */
+/* Manual pages (man(7)), made from the help texts and from the library's header. */
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "library/pscn.h"
 #include "packaging/pages.h"
 
-void manual_put(FILE *file, const char *text, size_t length)
+/* Writes text for roff, so that no line of it is a request. */
+static void put(FILE *file, const char *text, size_t length)
 {
   for (size_t k = 0; k < length; k++) {
     const bool first = k == 0 || text[k - 1] == '\n';
@@ -18,7 +20,7 @@ void manual_put(FILE *file, const char *text, size_t length)
   }
 }
 
-static void put_text(FILE *file, const char *text) { manual_put(file, text, strlen(text)); }
+static void put_text(FILE *file, const char *text) { put(file, text, strlen(text)); }
 
 /* Writes the paragraphs of the help texts. They are filled, but indented lines stay as they are. */
 static void put_paragraphs(FILE *file, const char *text)
@@ -32,7 +34,7 @@ static void put_paragraphs(FILE *file, const char *text)
     else if (!table && indented) fputs(open ? ".nf\n" : ".PP\n.nf\n", file);
     else if (!open && !indented) fputs(".PP\n", file);
     if (length > 0) {
-      manual_put(file, line, length);
+      put(file, line, length);
       fputc('\n', file);
       open = true;
     }
@@ -121,4 +123,18 @@ void write_manual(const struct command *command, FILE *file)
       put_option(file, option);
   }
   put_end(file, command);
+}
+
+void write_library(FILE *file)
+{
+  char line[4096];
+  FILE *header = fopen(PSCN_HEADER, "r");
+  if (header == NULL) perror(PSCN_HEADER), exit(4);
+  fprintf(file,
+          ".TH \"PSCN\" 3 \"\" \"pscn %s\" \"pscn\"\n.SH NAME\nlibpscn \\- exact intersection of rays with bicubic "
+          "patches\n.SH SYNOPSIS\n.B #include <pscn.h>\n.SH DESCRIPTION\nThe header:\n.PP\n.nf\n",
+          PSCN_VERSION);
+  while (fgets(line, sizeof line, header) != NULL) put_text(file, line);
+  fputs(".fi\n", file);
+  fclose(header);
 }

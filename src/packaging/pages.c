@@ -1,7 +1,9 @@
-/* pages FOLDER LANGUAGE HEADER: writes there, when pscn is built, all that `cmake --install` installs for shells, editors and man. */
+/* pages FOLDER: writes there, when pscn is built, all that `cmake --install` installs for shells, editors and man. */
 #include "packaging/pages.h"
 
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "algebra/solver.h"
 #include "render/channels.h"
@@ -46,33 +48,17 @@ struct argument argument_of_command(const struct command *command)
   return argument;
 }
 
-/* Opens FOLDER/NAME; NULL, after an error, if it cannot. */
-static FILE *begin(const char *folder, const char *name)
+static FILE *begin(const char *name)
 {
-  char path[4096];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *file = fopen(path, "w");
-  if (file == NULL) perror(path);
+  FILE *file = fopen(name, "w");
+  if (file == NULL) perror(name), exit(4);
   return file;
 }
 
-static bool end(FILE *file, const char *name)
+static void end(FILE *file, const char *name)
 {
-  const bool written = ferror(file) == 0;
-  if (fclose(file) == 0 && written) return true;
-  perror(name);
-  return false;
-}
-
-/* Makes FOLDER/NAME of the file `from`. */
-static bool convert(const char *folder, const char *name, const char *from, void (*write)(FILE *file, FILE *source))
-{
-  FILE *source = fopen(from, "r"), *file = source == NULL ? NULL : begin(folder, name);
-  if (source == NULL) perror(from);
-  if (file != NULL) write(file, source);
-  const bool done = file != NULL && end(file, name);
-  if (source != NULL) fclose(source);
-  return done;
+  const bool failed = ferror(file) != 0;
+  if (fclose(file) != 0 || failed) perror(name), exit(4);
 }
 
 int main(int argc, char **argv)
@@ -80,28 +66,21 @@ int main(int argc, char **argv)
   static const struct {
     const char *name;
     void (*write)(FILE *file);
-  } pages[] = {{"pscn.bash", write_bash},
-               {"_pscn", write_zsh},
-               {"pscn.fish", write_fish},
-               {"pscn.vim", write_vim},
-               {"pscn.tmLanguage.json", write_textmate}};
-  if (argc != 4) return 2;
-  bool done = convert(argv[1], "pscn.5", argv[2], write_language) && convert(argv[1], "pscn.3", argv[3], write_library);
-  for (size_t k = 0; k < sizeof pages / sizeof *pages && done; k++) {
-    FILE *file = begin(argv[1], pages[k].name);
-    if (file == NULL) return 4;
+  } pages[] = {{"pscn.3", write_library}, {"pscn.bash", write_bash}, {"_pscn", write_zsh},
+               {"pscn.fish", write_fish}, {"pscn.vim", write_vim},   {"pscn.tmLanguage.json", write_textmate}};
+  if (argc != 2 || chdir(argv[1]) != 0) return 2;
+  for (size_t k = 0; k < sizeof pages / sizeof *pages; k++) {
+    FILE *file = begin(pages[k].name);
     pages[k].write(file);
-    done = end(file, pages[k].name);
+    end(file, pages[k].name);
   }
   const struct command *command = NULL; /* pscn itself comes first */
-  for (size_t k = 0; done; command = command_at(k++)) {
+  for (size_t k = 0; k == 0 || command != NULL; command = command_at(k++)) {
     char name[64] = "pscn.1";
-    if (k > 0 && command == NULL) break;
     if (command != NULL) snprintf(name, sizeof name, "pscn-%s.1", command->name);
-    FILE *file = begin(argv[1], name);
-    if (file == NULL) return 4;
+    FILE *file = begin(name);
     write_manual(command, file);
-    done = end(file, name);
+    end(file, name);
   }
-  return done ? 0 : 4;
+  return 0;
 }

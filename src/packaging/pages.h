@@ -9,12 +9,8 @@
 /* The manual page of a command, or for NULL that of pscn. */
 void write_manual(const struct command *command, FILE *file);
 
-/* Those of the scene language, from docs/language.md, and of the library, from its header. */
-void write_language(FILE *file, FILE *source);
-void write_library(FILE *file, FILE *source);
-
-/* Writes text for roff, so that no line of it is a request. */
-void manual_put(FILE *file, const char *text, size_t length);
+/* That of the library, which shows its header. */
+void write_library(FILE *file);
 
 /* Completions for the shells. */
 void write_bash(FILE *file);
