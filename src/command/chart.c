@@ -84,16 +84,13 @@ const struct command command_chart = {
   .arguments = "SCENE",
   .summary = "Charts speed against accuracy, for every solver and the peers",
   .description =
-    "Solves camera rays of the scene, chosen evenly, and their shadow rays by every solver but durand_kerner, in "
-    "every\n"
-    "basis, at tolerances from 1e-1 to 1e-15, with and without polish, from cold and from previous start values, and "
-    "as\n"
-    "in the paper; by rival methods (Newton, clipping, boxes, eigenvalues); by Embree on triangles and by POV-Ray, if "
-    "they\n"
-    "are installed. All take turns on one thread. A reference in quadruple precision, which shares nothing with them,\n"
-    "finds the errors. DIR receives chart.csv with every point, chart.svg (drawn by gnuplot) and the self-contained\n"
-    "chart.html. Standard output has the Pareto front. Solver statements of the scene are ignored; with\n"
-    "--solver only the named solvers and the default are charted.\n",
+    "Solves camera rays of the scene, chosen evenly, and their shadow rays by every solver but durand_kerner, in\n"
+    "every basis, at tolerances from 1e-1 to 1e-15, with and without polish, from cold and from previous start\n"
+    "values, and as in the paper; by rival methods (Newton, clipping, boxes, eigenvalues); by Embree on triangles\n"
+    "and by POV-Ray, if they are installed. All take turns on one thread. A reference in quadruple precision, which\n"
+    "shares nothing with them, finds the errors. DIR receives chart.csv with every point, chart.svg (drawn by\n"
+    "gnuplot) and the self-contained chart.html. Standard output has the Pareto front. Solver statements of the\n"
+    "scene are ignored; with --solver only the named solvers and the default are charted.\n",
   COMMAND_RUNS(1, take_option),
   .end = end,
 };

@@ -239,9 +239,8 @@ const struct command command_compare = {
   .summary = "Compares two pictures",
   .description =
     "Standard output has mean, root mean square and largest difference of the values as they are stored (0 to 1 in\n"
-    "integer files), the signal to noise ratio, and how many pixels are over 1/255, 4/255, 16/255 and the limit. The\n"
-    "numbers are defined as those of OpenImageIO's idiff. Channels are paired by name. Limits may be quotients: "
-    "4/255.\n"
-    "The exit code is 1 if the pictures differ by more than the limits, or in size or channels.\n",
+    "integer files), the signal to noise ratio, and how many pixels are over 1/255, 4/255, 16/255 and the limit.\n"
+    "The numbers are defined as those of OpenImageIO's idiff. Channels are paired by name. Limits may be quotients:\n"
+    "4/255. The exit code is 1 if the pictures differ by more than the limits, or in size or channels.\n",
   COMMAND_RUNS(2, NULL),
 };

@@ -36,7 +36,7 @@ const struct command command_dump = {
   .arguments = "SCENE",
   .summary = "Writes a scene as canonical text, which pscn and POV-Ray read",
   .description =
-    "Names, includes, arithmetic and transforms are resolved; the text goes to standard output. The dump of a dump is\n"
-    "the same text.\n",
+    "Names, includes, arithmetic and transforms are resolved; the text goes to standard output. The dump of a dump\n"
+    "is the same text.\n",
   COMMAND_RUNS(1, scene_request_take),
 };

@@ -33,10 +33,12 @@ static void print_solver_help(void)
 
 static void print_channels_help(void)
 {
-  puts("usage: --channels NAME[,NAME...]       of render, into an EXR\n"
-       "The values of each pixel; their names in the file are in brackets.\n"
-       "\n"
-       "Names:");
+  puts(
+    "usage: --channels NAME[,NAME...]       of render, into an EXR\n"
+    "The values of each pixel; their names in the file are in brackets. All but rgb need EXR and have 32 bits. From\n"
+    "depth on they are those of one sample, the middle one: the pixel's centre if the number of samples is odd.\n"
+    "\n"
+    "Names:");
   for (int kind = 0; kind < CHANNEL_KINDS; kind++) {
     const struct channel_traits *traits = channel_traits((enum channel_kind)kind);
     printf("  %-10s  %s (", traits->name, traits->summary);
@@ -76,8 +78,7 @@ const struct command command_help = {
   .arguments = "[COMMAND]",
   .summary = "Explains pscn or one of its commands",
   .description =
-    "Without an argument it lists the commands. `pscn help solver` lists the solvers and their items, `pscn "
-    "help channels`\n"
-    "the channels of a picture.\n",
+    "Without an argument it lists the commands. `pscn help solver` lists the solvers and their items, `pscn help\n"
+    "channels` the channels of a picture.\n",
   COMMAND_RUNS(0, NULL),
 };

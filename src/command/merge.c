@@ -287,16 +287,13 @@ const struct command command_merge = {
   .arguments = "PIECE...",
   .summary = "Puts the pieces of a picture together",
   .description =
-    "Pieces are the files of 'pscn render --tile K/N', K = 1 to N, rendered on any machines and in any order, and what "
-    "an\n"
-    "interrupted rendering has kept (*.part.exr). The picture is, bit by bit, that of a single rendering without "
-    "--tile.\n"
+    "Pieces are the files of 'pscn render --tile K/N', K = 1 to N, rendered on any machines and in any order, and\n"
+    "what an interrupted rendering has kept (*.part.exr). The picture is, bit by bit, that of a single rendering\n"
+    "without --tile.\n"
     "\n"
-    "Each piece records its picture: the text of the scene and of all its includes, the options, the version and the "
-    "kind\n"
-    "of processor. If a piece is missing, cannot be read, belongs to another picture than most or has tiles of "
-    "another\n"
-    "piece, no picture is written and the exit code is 1. Standard output then has the numbers of the pieces that are\n"
-    "still to be rendered, such as 2,5-7, in the form of sbatch --array.\n",
+    "Each piece records its picture: the text of the scene and of all its includes, the options, the version and\n"
+    "the kind of processor. If a piece is missing, cannot be read, belongs to another picture than most or has\n"
+    "tiles of another piece, no picture is written and the exit code is 1. Standard output then has the numbers of\n"
+    "the pieces that are still to be rendered, such as 2,5-7, in the form of sbatch --array.\n",
   COMMAND_RUNS(1, take_option),
 };

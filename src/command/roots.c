@@ -399,22 +399,19 @@ const struct command command_roots = {
   .arguments = "[FILE]",
   .summary = "Reads polynomials and prints their roots",
   .description =
-    "FILE, or standard input, has one polynomial a line: its real coefficients from the highest power to the "
-    "constant,\n"
-    "with blanks or commas between them, of degree 1 to 64; # begins a comment. Standard output has one line for each, "
-    "in\n"
-    "order: 're im' pairs, sorted by real part. Multiple roots are repeated. A bad line ends the run with its number,\n"
-    "after the answers to the lines before it. If a value is not known to be near a root, or a root is missing, "
-    "standard\n"
-    "error says so, and the exit code is 1; the formats table and json show it themselves, and end with 0.\n"
+    "FILE, or standard input, has one polynomial a line: its real coefficients from the highest power to the\n"
+    "constant, with blanks or commas between them, of degree 1 to 64; # begins a comment. Standard output has one\n"
+    "line for each, in order: 're im' pairs, sorted by real part. Multiple roots are repeated. A bad line ends the\n"
+    "run with its number, after the answers to the lines before it. If a value is not known to be near a root, or a\n"
+    "root is missing, standard error says so, and the exit code is 1; the formats table and json show it\n"
+    "themselves, and end with 0.\n"
     "\n"
-    "The solver works on the coefficients as they are (basis power). With 'basis bernstein' in --solver the polynomial "
-    "is\n"
-    "first converted to scaled Bernstein form on [0,1]. The solver 'bernstein' finds the real roots in [0,1], "
-    "multiple\n"
-    "ones once or twice. With 'start previous' each polynomial starts from the roots of the one before.\n"
+    "The solver works on the coefficients as they are (basis power). With 'basis bernstein' in --solver the\n"
+    "polynomial is first converted to scaled Bernstein form on [0,1]. The solver 'bernstein' finds the real roots\n"
+    "in [0,1], multiple ones once or twice. With 'start previous' each polynomial starts from the roots of the one\n"
+    "before.\n"
     "\n"
-    "--iterates: a row for every value of the solver's iteration, in order: number of the line, step (0: the start),\n"
-    "number of the root as the solver counts them, re, im. Roots that need no iteration have no rows.\n",
+    "--iterates: a row for every value of the solver's iteration, in order: number of the line, step (0: the\n"
+    "start), number of the root as the solver counts them, re, im. Roots that need no iteration have no rows.\n",
   COMMAND_RUNS(0, take_option),
 };

@@ -22,26 +22,15 @@ static void put(FILE *file, const char *text, size_t length)
 
 static void put_text(FILE *file, const char *text) { put(file, text, strlen(text)); }
 
-/* Writes the paragraphs of the help texts. They are filled, but indented lines stay as they are. */
+/* Writes the paragraphs of the help texts, which are filled. */
 static void put_paragraphs(FILE *file, const char *text)
 {
-  bool table = false, open = false;
-  for (const char *line = text; *line != '\0';) {
-    const size_t length = strcspn(line, "\n");
-    const bool indented = line[0] == ' ';
-    if (table && !indented) fputs(".fi\n", file);
-    if (length == 0) open = false;
-    else if (!table && indented) fputs(open ? ".nf\n" : ".PP\n.nf\n", file);
-    else if (!open && !indented) fputs(".PP\n", file);
-    if (length > 0) {
-      put(file, line, length);
-      fputc('\n', file);
-      open = true;
-    }
-    table = indented;
-    line += length + (line[length] == '\n');
+  bool open = false;
+  for (const char *line = text; *line != '\0'; line += strcspn(line, "\n") + 1) {
+    if (*line != '\n' && !open) fputs(".PP\n", file);
+    open = *line != '\n';
+    if (open) put(file, line, strcspn(line, "\n") + 1);
   }
-  if (table) fputs(".fi\n", file);
 }
 
 static void put_option(FILE *file, const struct command_option *option)

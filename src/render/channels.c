@@ -15,8 +15,10 @@ static const struct channel_traits TRAITS[CHANNEL_KINDS] = {
   [CHANNEL_STATUS] = {"status", "0 miss, 1 hit, both certain; 2 miss, 3 hit, both grazing", 1, {"status"}, true},
   [CHANNEL_ITERATIONS] = {"iterations", "steps of the solver for all roots of all leaves", 1, {"iterations"}, true},
   [CHANNEL_ROOTS] = {"roots", "number of roots that the solver found on all leaves", 1, {"roots"}, true},
-  [CHANNEL_RESIDUAL] = {"residual", "|P|/delta of the root that is the hit (eq 11); a miss: 0", 1, {"residual"}, true},
-  [CHANNEL_DEVIATION] = {"deviation", "relative, from the certified distance", 1, {"deviation"}, true},
+  [CHANNEL_RESIDUAL] =
+    {"residual", "|P|/delta of the root that is the hit (eq 11), below 1 accurate; a miss: 0", 1, {"residual"}, true},
+  [CHANNEL_DEVIATION] =
+    {"deviation", "relative, from the certified distance; infinity if only one is a hit", 1, {"deviation"}, true},
 };
 
 const struct channel_traits *channel_traits(enum channel_kind kind) { return &TRAITS[kind]; }
