@@ -79,25 +79,18 @@ struct session {
 /* Reads coefficients from the highest power to the constant. The fault's text is NULL if all is well. */
 static struct stream_fault parse_line(const struct stream_line *line, double out_c[MAX_COEFFICIENTS], int *out_degree)
 {
-  double high_first[MAX_COEFFICIENTS + 1];
-  size_t at = 0, end = 0;
-  int count = 0, found;
-  struct stream_fault fault;
-  while ((found = stream_number(line, &at, &high_first[count], &end, &fault)) > 0 && count < MAX_COEFFICIENTS) {
-    at = end;
-    count++;
-  }
-  if (found < 0) return fault;
-  if (found > 0) return (struct stream_fault){"a polynomial has at most 65 coefficients", fault.begin, fault.end};
-  if (count < 2)
-    return (struct stream_fault){"a polynomial has at least two coefficients, from the highest power to the constant",
-                                 fault.begin, fault.end};
+  struct stream_number number[MAX_COEFFICIENTS];
+  size_t count;
+  const struct stream_fault fault = stream_numbers(
+    line, 2, MAX_COEFFICIENTS, "a polynomial has at least two coefficients, from the highest power to the constant",
+    "a polynomial has at most 65 coefficients", number, &count);
+  if (fault.text != NULL) return fault;
   bool zero = true;
-  for (int k = 0; k < count; k++) {
-    out_c[k] = high_first[count - 1 - k];
+  for (size_t k = 0; k < count; k++) {
+    out_c[k] = number[count - 1 - k].value;
     zero = zero && out_c[k] == 0;
   }
-  *out_degree = count - 1;
+  *out_degree = (int)count - 1;
   return (struct stream_fault){zero ? "all coefficients are zero: every number is a root" : NULL, 0, line->length};
 }
 

@@ -86,26 +86,41 @@ static bool has_words(struct stream_line *line)
   return false;
 }
 
-int stream_number(const struct stream_line *line, size_t *at, double *out_value, size_t *out_end,
-                  struct stream_fault *out_fault)
+/* Reads the number at byte `at`, after blanks and one comma, unless it is the first. Returns its fault. If the line has
+ * no more words, that is none, and begin and end are the line's end. */
+static struct stream_fault read_number(const struct stream_line *line, size_t at, struct stream_number *out)
 {
-  const bool first = *at == 0;
+  const bool first = at == 0;
   bool comma = false;
-  for (; *at < line->length && (is_blank(line->text[*at]) || (line->text[*at] == ',' && !first && !comma)); ++*at)
-    comma |= line->text[*at] == ',';
-  size_t end = *at, used;
+  for (; at < line->length && (is_blank(line->text[at]) || (line->text[at] == ',' && !first && !comma)); at++)
+    comma |= line->text[at] == ',';
+  size_t end = at, used;
   while (end < line->length && !is_blank(line->text[end]) && line->text[end] != ',') end++;
-  *out_end = end;
-  *out_fault = (struct stream_fault){NULL, *at, end};
-  if (*at == line->length && !comma) return 0;
-  const enum number_kind kind = number_read(line->text + *at, end - *at, out_value, &used);
-  if (end == *at) out_fault->text = "a number is missing here: a comma stands between two numbers";
-  else if (kind == NUMBER_NONE || (kind == NUMBER_FINITE && *at + used != end))
-    out_fault->text =
-      "this is not a number: a line has real numbers such as -2.5e3, with blanks or commas between them";
-  else if (kind == NUMBER_OVERFLOW) out_fault->text = "the number is too large";
-  else return 1;
-  return -1;
+  out->begin = at;
+  out->end = end;
+  if (at == line->length && !comma) return (struct stream_fault){0};
+  const enum number_kind kind = number_read(line->text + at, end - at, &out->value, &used);
+  const char *text = NULL;
+  if (end == at) text = "a number is missing here: a comma stands between two numbers";
+  else if (kind == NUMBER_NONE || (kind == NUMBER_FINITE && at + used != end))
+    text = "this is not a number: a line has real numbers such as -2.5e3, with blanks or commas between them";
+  else if (kind == NUMBER_OVERFLOW) text = "the number is too large";
+  return (struct stream_fault){text, at, end};
+}
+
+struct stream_fault stream_numbers(const struct stream_line *line, size_t least, size_t most, const char *few,
+                                   const char *many, struct stream_number out[], size_t *out_count)
+{
+  struct stream_number number = {0};
+  *out_count = 0;
+  for (;;) {
+    const struct stream_fault fault = read_number(line, number.end, &number);
+    if (fault.text == NULL && number.begin == number.end) break;
+    if (*out_count == most) return (struct stream_fault){many, number.begin, number.end};
+    if (fault.text != NULL) return fault;
+    out[(*out_count)++] = number;
+  }
+  return (struct stream_fault){*out_count < least ? few : NULL, number.begin, number.end};
 }
 
 /* Prints the fault of the line at the beginning of the unread bytes. */

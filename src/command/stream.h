@@ -41,10 +41,14 @@ const char *stream_name(const char *path);
  * lines before it. Returns STATUS_INPUT, STATUS_FILE or STATUS_LIMIT, after printing the error. */
 enum status stream_read(const struct command *command, const struct stream_reader *reader) STATUS_MUST_CHECK;
 
-/* Reads the next number of a line, from byte *at on. Returns 1; 0 if the line has no more words; -1, with the fault in
- * out_fault, if the next word is not a finite number. In all cases *at becomes the first byte of the word, and out_end
- * the first one after it. */
-int stream_number(const struct stream_line *line, size_t *at, double *out_value, size_t *out_end,
-                  struct stream_fault *out_fault);
+/* A number of a line, bytes begin .. end-1. */
+struct stream_number {
+  double value;
+  size_t begin, end;
+};
+
+/* Reads a line's numbers, `least` to `most` of them; `few` and `many` are the texts of the faults if there are others. */
+struct stream_fault stream_numbers(const struct stream_line *line, size_t least, size_t most, const char *few,
+                                   const char *many, struct stream_number out[], size_t *out_count);
 
 #endif
