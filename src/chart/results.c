@@ -7,9 +7,7 @@
 #include "base/json_text.h"
 #include "chart/templates.h"
 #include "chart/work.h"
-#include "page/fill.h"
 #include "page/page.h"
-#include "page/plot.h"
 
 /* ---- the figure ---- */
 

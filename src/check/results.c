@@ -8,9 +8,7 @@
 #include "check/measure.h"
 #include "check/templates.h"
 #include "library/pscn.h"
-#include "page/fill.h"
 #include "page/page.h"
-#include "page/plot.h"
 
 /* The factor by which differences are magnified: 16 codes become full light. */
 #define MAGNIFIED 16.0

@@ -1,10 +1,9 @@
 /* Runs gnuplot. */
-#include "page/plot.h"
 
 #include <errno.h>
 #include <string.h>
 
-#include "page/fill.h"
+#include "page/page.h"
 #include "page/process.h"
 #include "page/scratch.h"
 

@@ -2,7 +2,7 @@
 #ifndef TESTS_UNIT_DRAWN_H
 #define TESTS_UNIT_DRAWN_H
 
-#include "page/plot.h"
+#include "page/page.h"
 
 static json_t *drawn; /* the last values */
 

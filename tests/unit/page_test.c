@@ -1,5 +1,4 @@
 /* Templates: their contents, and the values that fill them; foreign text made printable. */
-#include "page/fill.h"
 #include "page/page.h"
 
 #include <math.h>
