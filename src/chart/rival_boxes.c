@@ -2,10 +2,7 @@
  * Shaded Display", 1980), which drops boxes by the hull of the control points, and interval Newton with Krawczyk's test
  * (D. Toth, "On Ray Tracing Parametric Surfaces", SIGGRAPH 1985). Bounds are those of the control points; their
  * roundings are not counted, as outside a proof nobody does. */
-#include <math.h>
-
 #include "chart/rivals.h"
-#include "geometry/patch.h"
 
 /* A box of less than this a side is a root of plain subdivision. Its best: smaller ones gain no digit of T. */
 #define SMALLEST 0x1p-40
@@ -17,13 +14,6 @@ struct box {
   double u, v, width[2];
   double a[4][4], b[4][4]; /* nets over it */
 };
-
-static bool excluded(double net[4][4])
-{
-  double low = net[0][0], high = low;
-  for (int n = 1; n < 16; n++) low = fmin(low, net[n / 4][n % 4]), high = fmax(high, net[n / 4][n % 4]);
-  return low > 0 || high < 0;
-}
 
 /* Splits a net in its middle along u (0) or v (1) by de Casteljau's algorithm: `net` becomes the first half. */
 static void halve_net(double net[4][4], int along, double out_second[4][4])
@@ -69,9 +59,9 @@ static int search(double a[4][4], double b[4][4], judge_box *judge, struct rival
   for (int boxes = 0; top > 0 && boxes < MOST_BOXES && count < RIVAL_ROOTS; boxes++) {
     struct box *box = &stack[top - 1];
     struct rival_root root = {0.5, 0.5};
-    const enum verdict verdict = excluded(box->a) || excluded(box->b)            ? NO_ROOT
-                                 : fmax(box->width[0], box->width[1]) < SMALLEST ? ONE_ROOT
-                                                                                 : judge(box, &root);
+    const enum verdict verdict = rival_keeps_sign(box->a) || rival_keeps_sign(box->b) ? NO_ROOT
+                                 : fmax(box->width[0], box->width[1]) < SMALLEST      ? ONE_ROOT
+                                                                                      : judge(box, &root);
     if (verdict == ONE_ROOT) {
       root.u = box->u + root.u * box->width[0], root.v = box->v + root.v * box->width[1];
       if (count == 0 || !same(&root, &out[count - 1])) out[count++] = root;
@@ -126,14 +116,8 @@ static enum verdict judge_krawczyk(struct box *box, struct rival_root *root)
     at[k] = 0.5 + off;
   }
   if (!within) return OPEN;
-  for (int n = 0; n < STEPS; n++) {
-    const struct patch_jet p = patch_evaluate(box->a, at[0], at[1]), q = patch_evaluate(box->b, at[0], at[1]);
-    const double inverse = 1 / (p.du * q.dv - p.dv * q.du);
-    const double du = (p.value * q.dv - q.value * p.dv) * inverse, dv = (q.value * p.du - p.value * q.du) * inverse;
-    at[0] -= du, at[1] -= dv;
-    if (fmax(fabs(du), fabs(dv)) < 1e-8) break;
-  }
   *root = (struct rival_root){at[0], at[1]};
+  for (int n = 0; n < STEPS && !(rival_step(box->a, box->b, root) < 1e-8); n++) continue;
   return ONE_ROOT;
 }
 

@@ -2,11 +2,9 @@
  * 1990). The patch as the two planes see it is a patch in the plane, (a, b), and the ray is the origin. Distances of its
  * control points from a line through the origin, along the mean direction of the patch's other parameter, are a
  * function whose convex hull meets 0 in a part of the range; the rest is clipped away. */
-#include <math.h>
 #include <string.h>
 
 #include "chart/rivals.h"
-#include "geometry/patch.h"
 
 /* A range narrower than this is a root. Its best: narrower ones gain no digit of T. */
 #define NARROW 1e-12

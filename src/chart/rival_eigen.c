@@ -1,11 +1,9 @@
 /* Roots as eigenvalues, by LAPACK: of the companion matrix of r(u) (paper eq 6), and of the pencil of Bezout's matrix,
  * whose determinant r is, without forming that (D. Manocha, S. Krishnan, "Algebraic Pruning: A Fast Technique for Curve
  * and Surface Intersection", 1997). A module, so that pscn needs no LAPACK. */
-#include <math.h>
 #include <string.h>
 
 #include "chart/rivals.h"
-#include "geometry/patch.h"
 
 #define BEZOUT_REAL double
 #define BEZOUT_NAME(name) bezout_##name

@@ -2,11 +2,9 @@
 #include "chart/rivals.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 
 #include "geometry/bvh.h"
-#include "geometry/patch.h"
 #include "geometry/vector.h"
 
 struct part {
@@ -72,13 +70,6 @@ void rivals_destroy(struct rivals *rivals)
   free(rivals);
 }
 
-static bool keeps_sign(double net[4][4])
-{
-  double low = net[0][0], high = low;
-  for (int n = 1; n < 16; n++) low = fmin(low, net[n / 4][n % 4]), high = fmax(high, net[n / 4][n % 4]);
-  return low > 0 || high < 0;
-}
-
 static void try_part(const struct rivals *rivals, struct part *part, struct line *line)
 {
   double net[2][4][4];
@@ -89,7 +80,7 @@ static void try_part(const struct rivals *rivals, struct part *part, struct line
       for (int k = 0; k < 3; k++)
         net[plane][n / 4][n % 4] += line->normal[plane][k] * (part->x[k][n / 4][n % 4] - line->origin[k]);
     }
-    if (keeps_sign(net[plane])) return;
+    if (rival_keeps_sign(net[plane])) return;
   }
   const int count = rivals->seek(net[0], net[1], root);
   for (int n = 0; n < count; n++) {

@@ -8,8 +8,11 @@
 #ifndef PSCN_CHART_RIVALS_H
 #define PSCN_CHART_RIVALS_H
 
+#include <math.h>
+
 #include "chart/judge.h"
 #include "chart/measure.h"
+#include "geometry/patch.h"
 
 enum { RIVAL_SPLIT = 8, RIVAL_ROOTS = 18 }; /* parts of a patch along each side; roots that one part can have */
 
@@ -22,6 +25,24 @@ struct rival_root {
 
 /* The Bernstein nets over a part, a[i][j] with i along u. Returns how many roots were found, at most RIVAL_ROOTS. */
 typedef int rival_seek(double a[4][4], double b[4][4], struct rival_root out[RIVAL_ROOTS]);
+
+/* Whether all values of a net, so its polynomial too, have one sign, and none is 0. */
+static inline bool rival_keeps_sign(double net[4][4])
+{
+  double low = net[0][0], high = low;
+  for (int n = 1; n < 16; n++) low = fmin(low, net[n / 4][n % 4]), high = fmax(high, net[n / 4][n % 4]);
+  return low > 0 || high < 0;
+}
+
+/* A step of Newton's method in two dimensions; returns its larger part. */
+static inline double rival_step(double a[4][4], double b[4][4], struct rival_root *root)
+{
+  const struct patch_jet f = patch_evaluate(a, root->u, root->v), g = patch_evaluate(b, root->u, root->v);
+  const double inverse = 1 / (f.du * g.dv - f.dv * g.du);
+  const double du = (f.value * g.dv - g.value * f.dv) * inverse, dv = (g.value * f.du - f.value * g.du) * inverse;
+  root->u -= du, root->v -= dv;
+  return fmax(fabs(du), fabs(dv));
+}
 
 rival_seek rival_newton;      /* rival_newton.c */
 rival_seek rival_subdivision; /* rival_boxes.c */

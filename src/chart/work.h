@@ -1,4 +1,4 @@
-/* Shared by the parts of a chart: chart.c runs it, work.c adds points, peers.c asks others, results.c writes the
+/* Shared by the parts of a chart: chart.c runs it and adds points, peers.c asks others, results.c writes the
  * results. Internal to this folder. */
 #ifndef PSCN_CHART_WORK_H
 #define PSCN_CHART_WORK_H

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -30,25 +31,13 @@ static const struct format_traits FORMATS[] = {
 
 enum { FORMAT_COUNT = sizeof FORMATS / sizeof FORMATS[0] };
 
-/* Converts ASCII letters only, in any locale. */
-static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
-
-static bool has_suffix(const char *path, const char *suffix)
-{
-  const size_t length = strlen(path), size = strlen(suffix);
-  if (length <= size || path[length - size - 1] == '/') return false;
-  size_t k = 0;
-  while (k < size && lower(path[length - size + k]) == suffix[k]) k++;
-  return k == size;
-}
-
 bool image_format_of(const char *path, enum image_format *out)
 {
-  for (int format = 0; format < FORMAT_COUNT; format++) {
-    if (has_suffix(path, FORMATS[format].suffix)) {
-      *out = (enum image_format)format;
-      return true;
-    }
+  const char *suffix = strrchr(path, '.');
+  for (int format = 0; format < FORMAT_COUNT && suffix != NULL && suffix > path && suffix[-1] != '/'; format++) {
+    if (strcasecmp(suffix, FORMATS[format].suffix) != 0) continue;
+    *out = (enum image_format)format;
+    return true;
   }
   return false;
 }
