@@ -67,8 +67,8 @@ rm -f away.pscn dark.pscn night.pscn seen.png
 pscn render flat.pscn $small 2>&1 | grep -c ' 1 patch,'
 # The progress line is no longer than the terminal is wide.
 if command -v script >/dev/null; then
-  for columns in 10 40 62; do
-    script -qec "stty cols $columns; pscn render $SCENES/bent.pscn --size 900x900 --samples 2 -o progress.png" /dev/null |
+  for columns in 10 40; do
+    script -qec "stty cols $columns; pscn render $SCENES/bent.pscn --size 600x600 --samples 2 -o progress.png" /dev/null |
       tr '\r' '\n' | sed 's/\x1b\[K//g' | grep 'rays/s\|%' |
       awk -v columns=$columns 'length($0) >= columns && !/answers|patches|rays  |x/ { long++ } END { print columns, long + 0 }'
   done

@@ -8,7 +8,7 @@ loaded() {
 }
 echo old >a.png
 for signal in INT TERM XCPU; do
-  pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --quiet &
+  pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --threads 1 --quiet &
   loaded $!
   kill -$signal $!
   wait $!
@@ -31,9 +31,9 @@ rm -f slow.png.part.exr # if a row was done by then
 } >copies.pscn
 ended copies.pscn
 rm -f copies.pscn slow.png.part.exr
-(ulimit -St 2; pscn render "$scene" --size 32x32 --samples 256 -o slow.png --threads 1 --quiet; echo "exit $?")
+(ulimit -St 1; pscn render "$scene" --size 32x32 --samples 256 -o slow.png --threads 1 --quiet; echo "exit $?")
 rm -f slow.png.part.exr
-pscn render "$scene" -o - --size 2000x2000 --samples 16 --quiet >/dev/null &
+pscn render "$scene" -o - --size 2000x2000 --samples 16 --threads 1 --quiet >/dev/null &
 sleep 1
 kill -INT $!
 wait $!
@@ -76,7 +76,7 @@ ls -A
 rm full* left* stats.json
 # Nothing is kept where the program would wait, or where it would be lost.
 mkfifo a.png.part.exr
-pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --checkpoint 0.1 &
+pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --threads 1 --checkpoint 0.1 &
 sleep 1
 kill -INT $!
 wait $!
