@@ -12,25 +12,24 @@ render() {
   { echo "$1"; cat rest; } >scene.pscn
   povray +Iscene.pscn +Opeer.png +W"${2%x*}" +H"${2#*x}" -D -A "${@:3}" >povray.log 2>&1 || { cat povray.log; exit 1; }
 }
-codes() { oiiotool "$1" --ch R,G,B --printstats | sed -n 's/.*Min: \(.*\) (.*/\1/p'; }
 
 # A colour that fills the picture.
 cat >rest <<'END'
 camera { location <0, 0, -4> look_at 0 angle 20 }
 background { rgb <0.5, 0.25, 0.1> }
 END
-row() { # VERSION GAMMA
-  local start=''
-  [ "$1" = none ] || start="#version $1;"
-  [ "$2" = none ] || start="$start global_settings { assumed_gamma $2 }"
-  render "$start" 4x4
-  "$PSCN" render scene.pscn -o ours.png --size 4x4 2>said
-  printf '| %s | %s | %s | %s |\n' "$1" "$2" "$(codes peer.png)" "$(codes ours.png)"
-  if grep -q 'no #version' said; then echo "$1 $2" >>warned; fi
-}
+commands=() names=()
 while read -r version gamma; do
-  row "$version" "$gamma"
-done >rows <<'END'
+  start=''
+  [ "$version" = none ] || start="#version $version;"
+  [ "$gamma" = none ] || start="$start global_settings { assumed_gamma $gamma }"
+  render "$start" 4x4
+  mv peer.png "peer$version$gamma.png"
+  "$PSCN" render scene.pscn -o "ours$version$gamma.png" --size 4x4 2>said
+  for picture in peer ours; do commands+=("$picture$version$gamma.png" --ch R,G,B --printstats); done
+  names+=("| $version | $gamma")
+  if grep -q 'no #version' said; then echo "$version $gamma" >>warned; fi
+done <<'END'
 none none
 3.6 none
 3.7 none
@@ -40,6 +39,9 @@ none 1
 3.7 srgb
 none srgb
 END
+# The codes of each picture, by one program, which takes long to start.
+oiiotool "${commands[@]}" | sed -n 's/.*Min: \(.*\) (.*/\1/p' | paste -d '|' - - | sed 's/|/ | /; s/$/ |/' >codes
+paste -d '|' <(printf '%s \n' "${names[@]}") <(sed 's/^/ /' codes) >rows
 if [ "${1:-}" = --print ]; then
   cat rows
   exit
