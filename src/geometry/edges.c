@@ -10,7 +10,6 @@
 
 #include "base/memory.h"
 #include "base/real.h"
-#include "geometry/surfaces.h"
 
 struct border {
   double point[4][3]; /* in the direction that sorts first */

@@ -1,4 +1,5 @@
-/* Which borders patches share: equal control points, to the last bit (0 is -0), in the same or the opposite order.
+/* Which borders and surfaces patches share: equal control points, to the last bit (0 is -0), of a border in the same or
+ * the opposite order.
  *
  * Border 0 is u = 0, 1 is u = 1 (both run along v), 2 is v = 0, 3 is v = 1 (both run along u).
  */
@@ -46,9 +47,23 @@ void edge_points(double P[4][4][3], int border, double out[4][3]);
 bool edge_is_point(double P[4][4][3], int border);
 
 /* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes; any team gives the same. Nets that
- * an earlier one equals, by their surfaces (surfaces.h; NULL: none), are nobody's neighbours. STATUS_LIMIT if memory or
+ * an earlier one equals, by their surfaces (surfaces_find; NULL: none), are nobody's neighbours. STATUS_LIMIT if memory or
  * threads are short. */
 enum status edges_match(const void *nets, size_t stride, size_t count, const uint32_t surface[],
                         const struct team *team, struct edge_neighbour *out) STATUS_MUST_CHECK;
+
+/* ---- patches that a ray meets at one t: those that lie in one plane across an axis, such as a floor and what is laid on
+ * it, and those with the same control points, in any of the eight orders that give the same surface ---- */
+
+/* Added to the surface of a net whose control points an earlier one has, too. */
+#define SURFACE_AGAIN UINT32_C(0x80000000)
+
+/* The axis across which all of that surface lies in a plane; -1 for none. */
+#define SURFACE_AXIS(surface) ((int)((surface) >> 29 & 3) - 1)
+
+/* Sets out[p] for net p of `count`, at nets + p * stride bytes: equal numbers for nets of one surface, but for
+ * SURFACE_AGAIN; 0 for a net that lies in no plane across an axis and whose surface no other net has. May miss some in a
+ * scene that is made for this. STATUS_LIMIT if memory is short. */
+enum status surfaces_find(const void *nets, size_t stride, size_t count, uint32_t out[]) STATUS_MUST_CHECK;
 
 #endif

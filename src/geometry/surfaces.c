@@ -1,7 +1,7 @@
 /* Finds patches of one surface by a table of all nets. A net is looked up by its four inner control points, which stay
  * together in the middle in whatever order it is read, and by its plane if it lies in one: open addressing with linear
  * probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). */
-#include "geometry/surfaces.h"
+#include "geometry/edges.h"
 
 #include <stdbool.h>
 

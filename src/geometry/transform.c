@@ -5,7 +5,6 @@
 
 #include "base/kernel.h"
 #include "base/real.h"
-#include "geometry/transform_kernel.h"
 
 struct transform transform_identity(void)
 {

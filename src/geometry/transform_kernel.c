@@ -1,5 +1,5 @@
 /* The arithmetic of transforms. Compiled once per instruction set. */
-#include "geometry/transform_kernel.h"
+#include "geometry/transform.h"
 
 #include "base/double_lanes.h"
 #include "base/kernel.h"

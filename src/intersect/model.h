@@ -19,7 +19,6 @@
 #include "base/team.h"
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
-#include "geometry/surfaces.h"
 #include "intersect/certificate.h"
 #include "scene/scene.h"
 
@@ -160,7 +159,7 @@ struct model {
   struct oriented_box *oriented;     /* the leaves' */
   void *oriented_room;               /* their memory if leaves are not kept; owned */
   struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h */
-  /* the surface of each patch of the scene (geometry/surfaces.h), 0 for one of its own; NULL if no two patches share
+  /* the surface of each patch of the scene (geometry/edges.h), 0 for one of its own; NULL if no two patches share
    * one. A ray meets all patches of one surface at one t, and the first in the scene comes before the others */
   uint32_t *surface;
   size_t leaf_count;

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "geometry/control_points.h"
+#include "geometry/patch.h"
 #include "intersect/tracer.h"
 #include "library/library.h"
 

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "geometry/control_points.h"
 #include "geometry/patch.h"
 #include "language/language.h"
 #include "library/library.h"

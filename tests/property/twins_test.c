@@ -6,7 +6,7 @@
 
 #include "cmocka_test.h"
 #include "copied.h"
-#include "geometry/surfaces.h"
+#include "geometry/edges.h"
 #include "intersect/intersect.h"
 #include "method_of.h"
 #include "net_order.h"

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/real.h"
-#include "geometry/control_points.h"
+#include "geometry/patch.h"
 
 #include "cmocka_test.h"
 #include "random.h"

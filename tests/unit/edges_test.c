@@ -1,6 +1,5 @@
 /* Shared borders of patches. */
 #include "geometry/edges.h"
-#include "geometry/surfaces.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Nets of one surface: the same in one of the eight orders, or in one plane; in tables so small that searches wrap round
  * their end. */
-#include "geometry/surfaces.h"
+#include "geometry/edges.h"
 #include "net_order.h"
 
 #include <math.h>

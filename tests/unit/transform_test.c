@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "cmocka_test.h"
-#include "geometry/transform_kernel.h"
 #include "random.h"
 #include "reference/quad.h"
 #include "worse.h"

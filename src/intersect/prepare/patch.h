@@ -7,7 +7,7 @@
 
 #include "base/real.h"
 #include "geometry/bvh.h"
-#include "geometry/control_points.h"
+#include "geometry/patch.h"
 #include "intersect/model.h"
 
 /* A patch smaller than this part of its coordinates, or of the scene's if these are zeros, is framed as if it were that

@@ -1,5 +1,5 @@
-/* The arithmetic of control_points.h. Compiled once per instruction set, without contraction. */
-#include "geometry/control_points.h"
+/* The arithmetic of control points. Compiled once per instruction set, without contraction. */
+#include "geometry/patch.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,7 +7,6 @@
 #include "base/double_lanes.h"
 #include "base/kernel.h"
 #include "base/real.h"
-#include "geometry/patch.h"
 
 enum { SIDE = 4, POINTS = SIDE * SIDE, COORDINATES = 3 };
 
