@@ -106,51 +106,44 @@ static void tell_closing_line(struct diagnostics *diagnostics, bool warnings)
   diagnostics->tell(diagnostics->context, text, (size_t)length);
 }
 
-/* Tells the error without its place, which needs no memory. */
-static void tell_bare(struct diagnostics *diagnostics, const char *kind, const char *message)
+/* Tells a block of lines; `kind` is "error: " or "warning: ". False if the block has no room for them. */
+static bool tell_block(struct diagnostics *diagnostics, struct text_buffer *block, struct place place, const char *kind,
+                       const char *message)
 {
-  char memory[MESSAGE_BYTES + KIND_BYTES];
-  struct text_buffer block = {.text = memory, .room = sizeof memory}; /* room for all of it: nothing is allocated */
-  text_buffer_add_text(&block, kind);
-  const size_t begin = block.length;
-  add_clean(&block, message, strlen(message));
-  diagnostics->parts = (struct diagnostics_parts){
-    .said_begin = begin, .said_end = block.length, .warning = kind[0] == 'w'};
-  text_buffer_add_text(&block, "\n");
-  diagnostics->tell(diagnostics->context, block.text, block.length);
+  struct diagnostics_parts parts = {.warning = kind[0] == 'w'};
+  struct source_position at = {0};
+  if (place.source) {
+    at = source_locate(place.source, place.begin);
+    add_include_chain(block, place.source);
+    add_around(block, diagnostics);
+    parts.line = at.line, parts.column = at.column;
+    parts.name_begin = block->length;
+    parts.name_end = add_position(block, place.source, at);
+    text_buffer_add_text(block, " ");
+  }
+  text_buffer_add_text(block, kind);
+  parts.said_begin = block->length;
+  add_clean(block, message, strlen(message));
+  parts.said_end = block->length;
+  text_buffer_add_text(block, "\n");
+  if (place.source) add_line(block, place, at);
+  if (block->failed) return false;
+  diagnostics->parts = parts;
+  diagnostics->tell(diagnostics->context, block->text, block->length);
+  return true;
 }
 
-/* Tells a block of lines; `kind` is "error: " or "warning: ". */
 static void tell(struct diagnostics *diagnostics, struct place place, const char *kind, const char *format,
                  va_list arguments)
 {
-  char message[MESSAGE_BYTES];
-  if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
-  if (!place.source) {
-    tell_bare(diagnostics, kind, message);
-    return;
-  }
+  char message[MESSAGE_BYTES], memory[MESSAGE_BYTES + KIND_BYTES];
   struct text_buffer block = {0};
-  const struct source_position at = source_locate(place.source, place.begin);
-  struct diagnostics_parts parts = {.warning = kind[0] == 'w', .line = at.line, .column = at.column};
-  add_include_chain(&block, place.source);
-  add_around(&block, diagnostics);
-  parts.name_begin = block.length;
-  parts.name_end = add_position(&block, place.source, at);
-  text_buffer_add_text(&block, " ");
-  text_buffer_add_text(&block, kind);
-  parts.said_begin = block.length;
-  add_clean(&block, message, strlen(message));
-  parts.said_end = block.length;
-  text_buffer_add_text(&block, "\n");
-  add_line(&block, place, at);
-  if (block.failed) {
-    tell_bare(diagnostics, kind, message);
-  } else {
-    diagnostics->parts = parts;
-    diagnostics->tell(diagnostics->context, block.text, block.length);
-  }
+  if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
+  const bool told = place.source && tell_block(diagnostics, &block, place, kind, message);
   text_buffer_free(&block);
+  /* Without its place, there is room for all of it, and nothing is allocated. */
+  block = (struct text_buffer){.text = memory, .room = sizeof memory};
+  if (!told) (void)tell_block(diagnostics, &block, (struct place){NULL, 0, 0}, kind, message);
 }
 
 /* Whether to tell one more, after `before` of them. For the first one too many, tells the closing line. */

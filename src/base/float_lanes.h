@@ -98,11 +98,6 @@ LANES_INLINE four_floats four_floats_max(four_floats a, four_floats b)
 #endif
 }
 
-LANES_INLINE four_floats four_floats_select(four_mask mask, four_floats a, four_floats b)
-{
-  return (four_floats)((mask & (four_mask)a) | (~mask & (four_mask)b));
-}
-
 LANES_INLINE four_floats four_floats_abs(four_floats a)
 {
   return (four_floats)((four_mask)a & (INT32_MAX - (four_mask){0}));
