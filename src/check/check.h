@@ -2,7 +2,7 @@
  *
  * Our picture is rendered once. Each row is one picture by POV-Ray to compare with it: first the scene as written, then
  * with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n flatness 0). For the first one POV-Ray
- * reads the scene's file, for the others the canonical text of the scene (scene/dump.h), which is what we understood.
+ * reads the scene's file, for the others the canonical text of the scene (scene/scene.h), which is what we understood.
  * That text is also in the place of the file if this cannot be read again or could read or write files itself.
  */
 #ifndef PSCN_CHECK_CHECK_H

@@ -1,7 +1,7 @@
 /* pscn dump SCENE: the scene as canonical text. */
 #include "command/command.h"
 #include "command/scene_file.h"
-#include "scene/dump.h"
+#include "scene/scene.h"
 
 struct request {
   struct scene_request scene; /* first: passed to scene_request_take */

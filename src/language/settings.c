@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "language/language.h"
 #include "language/sources.h"
-#include "scene/gamma.h"
+#include "scene/scene.h"
 
 /* The versions of POV-Ray's language that a scene may ask for. Each is read as 3.7, except for its gamma. */
 #define VERSION_LOW 1.5 /* older ones had no binary operators */

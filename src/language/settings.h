@@ -19,7 +19,7 @@ struct light_node {
 /* The statements so far. */
 struct settings {
   double background[3], ambient_light[3];
-  double version, gamma;                           /* the last #version, the first assumed_gamma (scene/gamma.h) */
+  double version, gamma;                           /* the last #version, the first assumed_gamma */
   bool version_said, gamma_said;                   /* they were given */
   struct method method;                            /* of all patches without one of their own */
   struct block block;                              /* of the open background */

@@ -9,7 +9,7 @@
 #include "base/number.h"
 #include "language/settings.h"
 #include "language/sources.h"
-#include "scene/gamma.h"
+#include "scene/scene.h"
 
 struct value *value_of(struct language *language, enum value_kind kind, struct span place)
 {

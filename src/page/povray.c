@@ -13,7 +13,7 @@
 #include "image/image_file.h"
 #include "intersect/intersect.h"
 #include "page/plain_copy.h"
-#include "scene/dump.h"
+#include "scene/scene.h"
 
 /* The bytes that a run may write: for each pixel the picture, the state in which POV-Ray keeps it meanwhile, and an answer
  * of trace(), and something for the rest. */

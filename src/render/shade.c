@@ -8,7 +8,7 @@
 
 #include "geometry/vector.h"
 #include "intersect/leave.h"
-#include "scene/gamma.h"
+#include "scene/scene.h"
 
 /* The end of shadow rays, as a fraction of the way to the light. Where a ray meets a surface under an angle of sine s
  * is known to about eps / s of the way, eps = 2^-52. This end is therefore before a surface that holds the light for

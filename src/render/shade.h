@@ -8,7 +8,7 @@
  *
  * N is the unit normal facing the viewer, L the unit vector to the light. A `shadowless` light passes through
  * everything and, as in POV-Ray, gives no phong and no specular highlight. A miss gets the background's colour. All
- * this is added up in the space of the scene's colours (scene/gamma.h).
+ * this is added up in the space of the scene's colours (scene/scene.h).
  */
 #ifndef PSCN_RENDER_SHADE_H
 #define PSCN_RENDER_SHADE_H

@@ -2,6 +2,7 @@
 #include "scene/method.h"
 
 #include <float.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -151,48 +152,31 @@ bool method_equal(const struct method *a, const struct method *b)
   return equal;
 }
 
-/* Text that grows at its end, in fixed space. */
-struct text {
-  char *out;
-  size_t size, length;
-};
-
-static void append(struct text *text, const char *word)
-{
-  const size_t length = strlen(word);
-  if (length >= text->size - text->length) return;
-  memcpy(text->out + text->length, word, length + 1);
-  text->length += length;
-}
-
-static void append_value(struct text *text, const struct method_item *item, double value)
+/* The keyword that stands for the value, or its number, written to `number`. */
+static const char *value_text(const struct method_item *item, double value, char number[NUMBER_TEXT_SIZE])
 {
   size_t words = 0;
   while (item->keywords && item->keywords[words]) words++;
-  char number[NUMBER_TEXT_SIZE];
-  const bool word = value >= 0 && value < (double)words && value == (double)(size_t)value; /* 1e-9 is not auto */
-  if (!word) number_write(value, number);
-  append(text, word ? item->keywords[(size_t)value] : number);
+  /* 1e-9 is not auto */
+  if (value >= 0 && value < (double)words && value == (double)(size_t)value) return item->keywords[(size_t)value];
+  number_write(value, number);
+  return number;
 }
 
 void method_text(const struct method *method, char *out, size_t size)
 {
-  struct text text = {.out = out, .size = size};
+  char number[NUMBER_TEXT_SIZE];
+  const char *before = " { ", *end = "";
   struct method said; /* the meaning of the text so far */
   method_default(method->roots.solver, &said);
-  out[0] = '\0';
-  append(&text, method->roots.solver->name);
-  bool any = false;
-  for (size_t k = 0; k < method_item_count(); k++) {
+  size_t used = (size_t)snprintf(out, size, "%s", method->roots.solver->name);
+  for (size_t k = 0; k < method_item_count() && used < size; k++) {
     const struct method_item *item = &items[k];
     const double value = item->get(method);
     if (value == item->get(&said)) continue;
     item->set(&said, value);
-    append(&text, any ? " " : " { ");
-    append(&text, item->name);
-    append(&text, " ");
-    append_value(&text, item, value);
-    any = true;
+    used += (size_t)snprintf(out + used, size - used, "%s%s %s", before, item->name, value_text(item, value, number));
+    before = " ", end = " }";
   }
-  append(&text, any ? " }" : "");
+  if (used < size) snprintf(out + used, size - used, "%s", end);
 }

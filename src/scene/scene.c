@@ -1,5 +1,10 @@
-/* A scene: little more than its lifetime. src/language builds it. */
+/* A scene: little more than its lifetime, and the space of its colours. src/language builds it. */
 #include "scene/scene.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/srgb.h"
 
 void scene_override_solver(struct scene *scene, const struct method *method)
 {
@@ -19,4 +24,15 @@ void scene_destroy(struct scene *scene)
 {
   /* The scene itself is in its arena. */
   if (scene) arena_destroy(scene->arena);
+}
+
+double gamma_to_light(double gamma, double part)
+{
+  const double size = fabs(part), light = gamma == GAMMA_SRGB ? srgb_decode(size) : pow(size, gamma);
+  return copysign(fmin(light, FLT_MAX), part);
+}
+
+double gamma_of_srgb(double gamma, double code)
+{
+  return gamma == GAMMA_SRGB ? code : pow(srgb_decode(code), 1 / gamma);
 }

@@ -9,8 +9,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "base/arena.h"
+#include "base/status.h"
 #include "scene/method.h"
 
 /* POV-Ray's finish; render/shade.h has the formulas. All numbers but the roughness may be negative. */
@@ -61,13 +63,16 @@ struct scene_camera {
   double location[3], direction[3], right[3], up[3];
 };
 
+/* As a gamma, the curve of sRGB; any other is an exponent, which makes linear light of a part of a colour. */
+#define GAMMA_SRGB 0.0
+
 enum { SCENE_HASH_SIZE = 33 };
 
 struct scene {
   struct arena *arena;
   struct scene_camera camera;
   bool has_camera;    /* it was given; otherwise it is POV-Ray's default */
-  double gamma;       /* the space of all colours, in which light is added up: scene/gamma.h */
+  double gamma;       /* of the space of all colours, in which light is added up: POV-Ray's assumed_gamma */
   bool gamma_assumed; /* neither it nor a version of the language was given */
   double background[3], ambient_light[3];
   struct scene_light *lights;
@@ -95,5 +100,22 @@ bool scene_starts_warm(const struct scene *scene);
 
 /* Frees the scene's arena. NULL is allowed. */
 void scene_destroy(struct scene *scene);
+
+/* Linear light of a part of a colour; finite as a float. Negative parts give negative light. */
+double gamma_to_light(double gamma, double part);
+
+/* The part of a colour that is as light as an sRGB code, which is at least 0 and need not end at 1. */
+double gamma_of_srgb(double gamma, double code);
+
+/* Writes the scene as canonical text, readable by pscn and by POV-Ray 3.7.
+ *
+ * Every number is the shortest that reads back to the same double. Transforms are applied. The camera is location,
+ * direction, right and up. Textures are declared by number in the order of their first use. `solver` statements are
+ * inside #ifdef (pscn) and leave out defaults. Reading the text gives a scene whose dump is the same text, byte for
+ * byte. STATUS_FILE if writing fails (errno says why). Does not flush or close `file`. */
+STATUS_MUST_CHECK enum status scene_dump(const struct scene *scene, FILE *file);
+
+/* Only the patches, as `#declare NAME = union { ... }`, preceded by the textures they use. */
+STATUS_MUST_CHECK enum status scene_dump_union(const struct scene *scene, const char *name, FILE *file);
 
 #endif

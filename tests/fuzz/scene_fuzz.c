@@ -9,7 +9,7 @@
 #include "intersect/intersect.h"
 #include "language/language.h"
 #include "render/render.h"
-#include "scene/dump.h"
+#include "scene/scene.h"
 #include "target.h"
 
 enum {

@@ -24,7 +24,7 @@
 #include "cmocka_test.h"
 #include "files.h"
 #include "language/language.h"
-#include "scene/dump.h"
+#include "scene/scene.h"
 
 static const struct language_settings SETTINGS = {
   .image_width = 800, .image_height = 600, .tolerance = NAN, .max_work = 200000};

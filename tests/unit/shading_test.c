@@ -4,7 +4,7 @@
 #include "base/srgb.h"
 #include "geometry/vector.h"
 #include "render/shade.h"
-#include "scene/gamma.h"
+#include "scene/scene.h"
 #include "unit/rendered.h"
 
 /* Pixel n of a picture of "rgb,patch" and the point of the wall, patch 1, that it shows; NULL if it shows something
