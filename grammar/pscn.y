@@ -22,7 +22,6 @@
 #include "language/symbols.h"
 #include "language/objects.h"
 #include "language/settings.h"
-#include "language/errors.h"
 #include "language/tokens.h"
 
 #define YYSTACK_USE_ALLOCA 0

@@ -25,7 +25,7 @@
 void camera_default(struct camera_items *out)
 {
   static const double item[5][3] = {{0, 0, 0}, {0, 0, 1}, {1.33, 0, 0}, {0, 1, 0}, {0, 1, 0}};
-  *out = (struct camera_items){.transform = transform_identity()};
+  *out = (struct camera_items){.transform = transform_identity(), .folded = {{0}, {0, 0, 1}, {1.33, 0, 0}, {0, 1, 0}}};
   memcpy(out->item, item, sizeof item);
 }
 
@@ -63,14 +63,6 @@ void camera_transform(struct language *language, const struct transform *transfo
 {
   struct camera_items *camera = language->camera;
   camera->transform = transform_then(&camera->transform, transform);
-}
-
-/* Errors are reported while the camera's text is at hand. */
-void camera_end(struct language *language)
-{
-  struct scene_camera unused;
-  if (!language->camera->unknown && language_sound(language, &language->camera->block))
-    camera_fold(language, language->camera, &unused);
 }
 
 /* Returns the length of v, and writes v scaled to length 1. For a zero vector, returns 0 and writes nothing. Nothing
@@ -167,7 +159,8 @@ static bool fold_frame(struct language *language, const struct camera_items *ite
   return spans(language, place, frame);
 }
 
-bool camera_fold(struct language *language, const struct camera_items *items, struct scene_camera *out)
+/* Returns false, after reporting an error, if the items make no picture. */
+static bool fold(struct language *language, const struct camera_items *items, struct scene_camera *out)
 {
   struct camera_frame frame;
   if (!fold_frame(language, items, &frame)) return false;
@@ -195,4 +188,10 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
   /* Numbers may have become 0, and a transform may have left only what all three vectors share. */
   return make_frame(language, items->block.place, out->direction, out->right, out->up, &frame) &&
          spans(language, items->block.place, &frame);
+}
+
+void camera_end(struct language *language)
+{
+  struct camera_items *camera = language->camera;
+  if (!camera->unknown && language_sound(language, &camera->block)) (void)fold(language, camera, &camera->folded);
 }

@@ -17,6 +17,7 @@ struct camera_items {
   struct transform transform; /* applied to what all other items make */
   struct block block;
   struct span look_at_place;
+  struct scene_camera folded; /* what they make */
 };
 
 void camera_default(struct camera_items *out);
@@ -26,8 +27,5 @@ void camera_vector(struct language *language, int which, const struct value *val
 void camera_angle(struct language *language, const struct value *value);
 void camera_transform(struct language *language, const struct transform *transform);
 void camera_end(struct language *language);
-
-/* Folds the items into `out`. Returns false, after reporting an error, if they make no picture. */
-bool camera_fold(struct language *language, const struct camera_items *items, struct scene_camera *out);
 
 #endif

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "language/errors.h"
 #include "language/sources.h"
+#include "language/state.h"
 #include "language/symbols.h"
 #include "language/tokens.h"
 #include "language/values.h"

@@ -1,10 +1,11 @@
 /* Errors of one reading, and what it leaves out. */
-#include "language/errors.h"
+#include "language/state.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "language/scan.h"
 #include "language/settings.h"
 #include "language/sources.h"
 #include "language/tokens.h"

@@ -153,8 +153,8 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
   scene->gamma_assumed = !settings->version_said && !settings->gamma_said;
   memcpy(scene->background, settings->background, sizeof scene->background);
   memcpy(scene->ambient_light, settings->ambient_light, sizeof scene->ambient_light);
-  enum status status = camera_fold(&r->language, &r->camera, &scene->camera) ? add_lights(settings, scene)
-                                                                             : STATUS_INPUT;
+  scene->camera = r->camera.folded;
+  enum status status = add_lights(settings, scene);
   if (status == STATUS_OK) status = objects_expand(&r->language, &settings->method, scene, r->parts);
   if (status == STATUS_OK && !sources_list(&r->language, scene)) status = STATUS_LIMIT;
   if (status == STATUS_OK) *out_scene = scene;

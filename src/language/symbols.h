@@ -3,7 +3,7 @@
 #define PSCN_LANGUAGE_SYMBOLS_H
 
 #include "base/table.h"
-#include "language/errors.h"
+#include "language/state.h"
 #include "language/words.h"
 
 enum value_kind {

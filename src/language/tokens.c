@@ -2,7 +2,7 @@
 #include "language/tokens.h"
 
 #include "language/directives.h"
-#include "language/errors.h"
+#include "language/state.h"
 #include "language/values.h"
 
 static bool is_number(int token) { return token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT; }
