@@ -46,7 +46,7 @@ D("strlen", strlen("hello")) D("defined", defined(A)) D("defined", defined(Nothi
 #for (I, 1, 3) D("for", I) #end D("after", I)
 #for (I, 3, 1) D("never", I) #end D("after", I)
 #for (I, 3, 1, -1) #declare I = I - 0.5; D("down", I) #end D("after", I)
-#for (I, 0, 1, 0.1) #end D("after", I)
+#for (I, 2, 0, -1) D("down to 0", I) #end #for (I, 0, 1, 0.1) #end D("after", I)
 #for (I, 0, 1 - 1e-11, 1) D("nearly", I) #end
 #for (I, 0, 1 - 1e-9, 1) D("not quite", I) #end
 #for (I, 1, 2) #for (J, 1, 2) D("nested", I*10 + J) #end #end
