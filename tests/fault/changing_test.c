@@ -1,6 +1,5 @@
 /* Proves that `pscn merge` makes no picture of a piece that is rewritten meanwhile, between the reading of its header
  * and of its pixels. */
-#define _DEFAULT_SOURCE /* mkdtemp */
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 #include "cmocka_test.h"
 #include "command/command.h"
 #include "command/piece.h"
+#include "files.h"
 
 enum { MOST_ARGUMENTS = 16 };
 
@@ -66,13 +66,9 @@ int main(void)
                               "  <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,1> <3,1,0>\n"
                               "  <0,2,0> <1,2,1> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0>\n"
                               "  pigment { rgb 1 } translate <-1.5, -1.5, 0> }\n";
-  static const char *const files[] = {"scene.pscn", "one.exr", "two.exr", "other.exr", "picture.png"};
-  char folder[] = "/tmp/pscn-changing-XXXXXX";
-  if (!mkdtemp(folder) || chdir(folder) != 0) return 1;
-  FILE *file = fopen("scene.pscn", "w");
-  if (!file || fputs(scene, file) < 0 || fclose(file) != 0) return 1;
+  void *folder;
+  if (enter_folder(&folder) != 0) return 1;
+  put_text("scene.pscn", scene);
   const int failed = test_run();
-  for (size_t k = 0; k < sizeof files / sizeof *files; k++) unlink(files[k]);
-  if (rmdir(folder) != 0) return 1;
-  return failed;
+  return leave_folder(&folder) == 0 ? failed : 1;
 }

@@ -74,19 +74,6 @@ static void expect_no_litter(void)
 /* What a command leaves: only its answers, a file (`output`, with `stats`), a folder of files (`results`). */
 enum leaves { NOTHING, FILES, FOLDER };
 
-static void remove_results(void)
-{
-  DIR *here = opendir(results);
-  if (!here) return;
-  for (const struct dirent *entry; (entry = readdir(here)) != NULL;) {
-    char path[sizeof results + sizeof entry->d_name];
-    snprintf(path, sizeof path, "%s/%s", results, entry->d_name);
-    remove(path);
-  }
-  closedir(here);
-  rmdir(results);
-}
-
 static size_t count_results(void)
 {
   size_t count = 0;
@@ -100,7 +87,7 @@ static size_t count_results(void)
 /* Restores the initial state: nothing, or an old file of that name. */
 static void prepare(enum leaves leaves, const char *old)
 {
-  remove(output), remove(kept), remove(stats), remove_results();
+  remove(output), remove(kept), remove(stats), remove_all(results);
   if (!old) return;
   if (leaves == FOLDER) assert_int_equal(mkdir(results, 0700), 0);
   put_text(leaves == FOLDER ? page : output, old);
@@ -202,9 +189,28 @@ static void fail_files(const char *const arguments[], enum leaves leaves)
 
 static void feed(const char *text) { put_text(input, text); }
 
-static void test_render(void **state)
+/* A picture that `compare` reads, and with which the program below answers. */
+static void make_picture(void)
 {
-  (void)state;
+  const char *const render[] = {
+    "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "8x6", "--quiet", "-o", picture, NULL};
+  if (access(picture, F_OK) != 0) assert_int_equal(run(render), STATUS_OK);
+}
+
+/* The first test. Room for OpenImageIO is reserved before it is loaded, which happens once: PNG is written without it. */
+TEST(test_first_picture)
+{
+  const char *const compare[] = {"compare", picture, picture, NULL};
+  make_picture();
+  failing = MMAP;
+  atomic_store(left, 0);
+  assert_int_equal(run(compare), STATUS_LIMIT);
+  assert_true(atomic_load(left) < 0 && size_of(errors) > 0);
+  expect_as_before(FILES, NULL);
+}
+
+TEST(test_render)
+{
   const char *const plain[] = {"render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "9x7", "--quiet", "-o", output,
                                NULL};
   const char *const more[] = {
@@ -215,18 +221,16 @@ static void test_render(void **state)
   fail_files(more, FILES);
 }
 
-static void test_render_threads(void **state)
+TEST(test_render_threads)
 {
-  (void)state;
   const char *const arguments[] = {
     "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "200x150", "--threads", "3", "--quiet", "-o", output,
     NULL};
   assert_true(fail_each(arguments, THREAD, FILES, NULL) > 0);
 }
 
-static void test_others(void **state)
+TEST(test_others)
 {
-  (void)state;
   const char *const dump[] = {"dump", PSCN_SOURCE_DIR "/scenes/nested.pscn", NULL};
   const char *const trace[] = {"trace", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", "--stats", stats, NULL};
   const char *const all[] = {"trace", "--all", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", NULL};
@@ -253,18 +257,9 @@ static void test_others(void **state)
   feed("");
 }
 
-/* A picture that `compare` reads, and with which the program below answers. */
-static void make_picture(void)
-{
-  const char *const render[] = {
-    "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "8x6", "--quiet", "-o", picture, NULL};
-  if (access(picture, F_OK) != 0) assert_int_equal(run(render), STATUS_OK);
-}
-
 /* The pieces of a picture: none is changed, and the picture is complete or absent. */
-static void test_merge(void **state)
+TEST(test_merge)
 {
-  (void)state;
   char piece[2][80];
   for (int k = 0; k < 2; k++) {
     const char *const numbers[] = {"1/2", "2/2"};
@@ -281,31 +276,16 @@ static void test_merge(void **state)
   for (int k = 0; k < 2; k++) remove(piece[k]);
 }
 
-/* Room for OpenImageIO is reserved before it is loaded, which happens once: PNG is written without it. */
-static void test_first_picture(void **state)
+TEST(test_compare)
 {
-  (void)state;
-  const char *const compare[] = {"compare", picture, picture, NULL};
-  make_picture();
-  failing = MMAP;
-  atomic_store(left, 0);
-  assert_int_equal(run(compare), STATUS_LIMIT);
-  assert_true(atomic_load(left) < 0 && size_of(errors) > 0);
-  expect_as_before(FILES, NULL);
-}
-
-static void test_compare(void **state)
-{
-  (void)state;
   const char *const compare[] = {"compare", picture, picture, "-o", output, NULL};
   make_picture();
   assert_true(fail_each(compare, ALLOCATE, FILES, NULL) > LEAST);
   fail_files(compare, FILES);
 }
 
-static void test_standard_input(void **state)
+TEST(test_standard_input)
 {
-  (void)state;
   const char *const dump[] = {"dump", "-", NULL};
   feed("camera { location -z }\n");
   assert_int_equal(fail_each(dump, DUP, NOTHING, NULL), 1);
@@ -335,9 +315,8 @@ static void make_povray(void)
       "--failpercent", "100", "--failpsnr", "0", "--failmask", "100", "-o", results, NULL                          \
   }
 
-static void test_check(void **state)
+TEST(test_check)
 {
-  (void)state;
   const char *const arguments[] = CHECK_OF("/tests/cli/scenes/bent.pscn");
   make_picture();
   snprintf(page, sizeof page, "%s/check.html", results);
@@ -347,9 +326,8 @@ static void test_check(void **state)
 }
 
 /* The scene's file is copied with everything that it includes. */
-static void test_check_includes(void **state)
+TEST(test_check_includes)
 {
-  (void)state;
   const char *const arguments[] = CHECK_OF("/scenes/nested.pscn");
   make_picture();
   snprintf(page, sizeof page, "%s/check.html", results);
@@ -359,9 +337,8 @@ static void test_check_includes(void **state)
   assert_true(fail_each(arguments, ALLOCATE_AT, FOLDER, NULL) > LEAST);
 }
 
-static void test_chart(void **state)
+TEST(test_chart)
 {
-  (void)state;
   const char *const arguments[] = {"chart",      PSCN_SOURCE_DIR "/scenes/bent.pscn",
                                    "--solver",   "bernstein",
                                    "--quiet",    "--quick",
@@ -395,14 +372,7 @@ int main(int argc, char **argv)
   snprintf(picture, sizeof picture, "%s/picture.png", folder);
   feed("");
   make_povray();
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_first_picture), cmocka_unit_test(test_render), cmocka_unit_test(test_render_threads),
-    cmocka_unit_test(test_merge),         cmocka_unit_test(test_others), cmocka_unit_test(test_standard_input),
-    cmocka_unit_test(test_compare),       cmocka_unit_test(test_check),  cmocka_unit_test(test_check_includes),
-    cmocka_unit_test(test_chart),
-  };
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  remove(input), remove(output), remove(errors), remove(answers), remove(stats), remove(povray), remove(picture);
-  rmdir(folder);
+  const int failed = test_run();
+  remove_all(folder);
   return failed;
 }

@@ -1,9 +1,7 @@
 /* The text for POV-Ray: files are included from where the language finds them, and copied once. */
 #include "page/plain_copy.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -11,32 +9,6 @@
 
 #include "cmocka_test.h"
 #include "files.h"
-
-static char place[] = "/tmp/pscn-test-XXXXXX";
-
-/* A folder with two others: sub for include files, out for the copies. */
-static bool make_folders(void)
-{
-  return mkdtemp(place) && chdir(place) == 0 && mkdir("sub", 0700) == 0 && mkdir("out", 0700) == 0;
-}
-
-static bool empty_folder(const char *name)
-{
-  char path[300];
-  DIR *folder = opendir(name);
-  if (folder == NULL) return false;
-  for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
-    snprintf(path, sizeof path, "%s/%s", name, entry->d_name);
-    (void)unlink(path);
-  }
-  return closedir(folder) == 0;
-}
-
-static bool remove_folders(void)
-{
-  return empty_folder("sub") && empty_folder("out") && rmdir("sub") == 0 && rmdir("out") == 0 && empty_folder(".") &&
-         rmdir(place) == 0;
-}
 
 static void copy(const char *scene)
 {
@@ -173,9 +145,11 @@ TEST(a_disk_that_is_full_is_told)
   }
 }
 
+/* A folder with two others: sub for include files, out for the copies. */
 int main(void)
 {
-  if (!make_folders()) return 1;
+  void *folder;
+  if (enter_folder(&folder) != 0 || mkdir("sub", 0700) != 0 || mkdir("out", 0700) != 0) return 1;
   const int failed = test_run();
-  return remove_folders() ? failed : 1;
+  return leave_folder(&folder) == 0 ? failed : 1;
 }

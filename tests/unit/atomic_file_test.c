@@ -123,27 +123,6 @@ int __wrap_fsync(int descriptor)
   return fsync_reason != 0 ? -1 : __real_fsync(descriptor);
 }
 
-/* Makes a new empty folder for each test, and sets the process's mask of permissions to a known value. */
-static int enter_folder(void **state)
-{
-  char *name = strdup("/tmp/pscn-test-XXXXXX");
-  *state = name;
-  umask(022);
-  return name == NULL || mkdtemp(name) == NULL || chdir(name) != 0;
-}
-
-static int leave_folder(void **state)
-{
-  DIR *folder = opendir(*state);
-  for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) unlink(entry->d_name);
-  closedir(folder);
-  const int result = rmdir(*state);
-  free(*state);
-  return result;
-}
-
-#define IN_FOLDER(test) TEST_WITH(test, enter_folder, leave_folder)
-
 static int count_entries(void)
 {
   int count = 0;
@@ -446,6 +425,7 @@ IN_FOLDER(a_link_goes_without_its_file)
 
 int main(void)
 {
+  umask(022);
   int failed = test_run();
   const int reasons[] = {EOPNOTSUPP, EISDIR, EINVAL}; /* the last two from systems that do not know such files */
   for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++) {

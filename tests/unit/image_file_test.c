@@ -20,23 +20,7 @@ enum { WIDTH = 5, HEIGHT = 3 };
  * 1. */
 static const double FLOAT_SLACK = 0x1p-23;
 
-static char path[64]; /* the file of the current test */
-
-static int make_path(void **state)
-{
-  (void)state;
-  snprintf(path, sizeof path, "/tmp/pscn-test-%ld", (long)getpid());
-  return 0;
-}
-
-static int remove_path(void **state)
-{
-  (void)state;
-  unlink(path);
-  return 0;
-}
-
-#define WITH_FILE(test) TEST_WITH(test, make_path, remove_path)
+static const char path[] = "picture";
 
 static struct image picture(size_t channels, const char *const names[])
 {
@@ -73,7 +57,7 @@ static void *no_work(void *unused) { return unused; }
 
 /* Must be the first test. OpenEXR's threads exist once OpenImageIO is ready, so a picture can be made when no thread
  * can be started any more. None can: each would need a stack larger than any machine's memory. */
-WITH_FILE(exr_is_made_without_new_threads)
+IN_FOLDER(exr_is_made_without_new_threads)
 {
   char message[IMAGE_MESSAGE_SIZE];
   assert_int_equal(image_file_ready(message), STATUS_OK);
@@ -94,7 +78,7 @@ WITH_FILE(exr_is_made_without_new_threads)
   pthread_attr_destroy(&huge);
 }
 
-WITH_FILE(png_holds_the_nearest_codes)
+IN_FOLDER(png_holds_the_nearest_codes)
 {
   const char *const names[] = {"R", "G", "B"};
   struct image image = picture(3, names);
@@ -113,7 +97,7 @@ WITH_FILE(png_holds_the_nearest_codes)
 }
 
 /* Colours are kept as half, data as float, and found by name in whatever order the file has them. */
-WITH_FILE(exr_keeps_values_and_names)
+IN_FOLDER(exr_keeps_values_and_names)
 {
   const char *const names[] = {"R", "G", "B", "depth", "normal.x"};
   struct image image = picture(5, names);
@@ -154,7 +138,7 @@ static bool end_soon(void *context, double part)
 }
 
 /* Progress reaches the end of the file; rows that are written separately make the whole picture. */
-WITH_FILE(encoding_is_told)
+IN_FOLDER(encoding_is_told)
 {
   enum { TALL = 1000 };
   struct image image;
@@ -180,7 +164,7 @@ WITH_FILE(encoding_is_told)
 }
 
 /* Neither writing nor reading divides or multiplies by a channel that could be opacity. */
-WITH_FILE(no_channel_is_opacity)
+IN_FOLDER(no_channel_is_opacity)
 {
   static const char *const names[] = {"R", "G", "B", "A"};
   for (size_t channels = 2; channels <= 4; channels += 2) {
@@ -201,7 +185,7 @@ WITH_FILE(no_channel_is_opacity)
 }
 
 /* A crop keeps its place, packed either way. Its own texts come back, others do not; a text that is missing is empty. */
-WITH_FILE(exr_keeps_its_window_and_texts)
+IN_FOLDER(exr_keeps_its_window_and_texts)
 {
   const char *const names[] = {"R", "G", "B"};
   struct image image = picture(3, names);
@@ -246,7 +230,7 @@ static enum status answer(void *context, const struct image *image, const struct
 }
 
 /* The areas' pixels are read. Of a file in tiles no others are; of one in rows, or if all tiles are needed, all are. */
-WITH_FILE(areas_of_a_picture_are_read)
+IN_FOLDER(areas_of_a_picture_are_read)
 {
   const char *const names[] = {"R", "G", "B"};
   static const int first[HEIGHT][WIDTH] = {/* the area that a pixel is in, from 1 */
@@ -285,7 +269,7 @@ WITH_FILE(areas_of_a_picture_are_read)
 }
 
 /* If pixels lie outside the picture that they claim to be part of, on any side, they are read as a whole picture. */
-WITH_FILE(exr_outside_its_picture_is_a_whole)
+IN_FOLDER(exr_outside_its_picture_is_a_whole)
 {
   const char *const names[] = {"R", "G", "B"};
   static const int places[][2] = {{-1, 0}, {0, -1}, {6, 0}, {0, 8}, {5, 7} /* the last that is inside */};
@@ -349,7 +333,7 @@ static void write_tiff(const struct tiff *tiff, size_t lacking)
 }
 
 /* Two grey pixels. A file that is cut off is refused, although OpenImageIO would invent the missing pixels. */
-WITH_FILE(tiff_is_read_in_both_orders_of_bytes)
+IN_FOLDER(tiff_is_read_in_both_orders_of_bytes)
 {
   for (int big = 0; big < 2; big++) {
     for (size_t lacking = 0; lacking < 2; lacking++) {
@@ -371,7 +355,7 @@ WITH_FILE(tiff_is_read_in_both_orders_of_bytes)
 /* For such files OpenImageIO would return whatever else is in memory. One has eight pixels that share their colours by
  * fours, the format's default, in 12 bytes where pixels have 24. The other is no zip; of that OpenImageIO says nothing
  * when it reads more than a row. */
-WITH_FILE(tiff_without_the_bytes_of_its_pixels_is_refused)
+IN_FOLDER(tiff_without_the_bytes_of_its_pixels_is_refused)
 {
   static const struct tiff shared = {.columns = 4, .compression = 1, .photometric = 6, .samples = 3, .bytes = 12},
                            no_zip = {.columns = 4, .compression = 8, .photometric = 1, .samples = 1, .bytes = 8};
@@ -400,7 +384,7 @@ static bool is_size(const unsigned char *bytes, size_t size, size_t at)
   return false;
 }
 
-WITH_FILE(damaged_pictures_are_read_or_refused)
+IN_FOLDER(damaged_pictures_are_read_or_refused)
 {
   enum { SEED = 20261122, ROUNDS = 150, MOST = 3 };
   struct random random = {SEED};

@@ -20,23 +20,6 @@ static const char *const OUTPUT = "output";
 static atomic_int stop;
 static void on_ready(int signal) { atomic_store(&stop, signal); }
 
-static int enter_folder(void **state)
-{
-  char *name = strdup("/tmp/pscn-test-XXXXXX");
-  *state = name;
-  return name == NULL || mkdtemp(name) == NULL || chdir(name) != 0 || mkdir("inside", 0777) != 0;
-}
-
-static int leave_folder(void **state)
-{
-  (void)unlink(OUTPUT), (void)unlink("inside/file"), (void)rmdir("inside");
-  const int result = chdir("/") != 0 || rmdir(*state);
-  free(*state);
-  return result;
-}
-
-#define IN_FOLDER(test) TEST_WITH(test, enter_folder, leave_folder)
-
 /* Runs this program of a shell, otherwise as the request says. */
 static enum status run(struct process_request request, const char *program, struct process_result *out)
 {
@@ -64,6 +47,7 @@ IN_FOLDER(the_environment_is_changed)
 {
   struct process_result result;
   const char *const pairs[] = {"PSCN_TEST_A", NULL, "PSCN_TEST_B", "new", NULL};
+  assert_int_equal(mkdir("inside", 0777), 0);
   assert_true(setenv("PSCN_TEST_A", "old", 1) == 0 && setenv("PSCN_TEST_B", "old", 1) == 0);
   assert_int_equal(run((struct process_request){.environment = pairs, .folder = "inside"},
                        "echo ${PSCN_TEST_A-unset} $PSCN_TEST_B ${PWD##*/}", &result),
@@ -109,6 +93,7 @@ IN_FOLDER(it_writes_in_its_folder_only)
 {
   struct process_result result;
   if (!process_can_confine()) skip();
+  assert_int_equal(mkdir("inside", 0777), 0);
   assert_int_equal(run((struct process_request){.folder = "inside", .confined = true},
                        "echo text >file; exec 2>&-; (echo text >../outside) || echo not outside", &result),
                    STATUS_OK);
@@ -123,6 +108,7 @@ IN_FOLDER(what_cannot_be_run_is_missing)
     int reason;
   } cases[] = {
     {"pscn-no-such-program", ENOENT}, {"inside/file", EACCES}, {"inside/file/x", ENOTDIR}, {"./inside", EACCES}};
+  assert_int_equal(mkdir("inside", 0777), 0);
   put_text("inside/file", "");
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     struct process_result result;
@@ -171,27 +157,6 @@ IN_FOLDER(it_is_made_to_end)
   assert_int_equal(poll(&end, 1, 100000), 1);
   assert_int_equal(read(held[0], &byte, 1), 0);
   assert_int_equal(close(held[0]), 0);
-}
-
-IN_FOLDER(its_time_is_over)
-{
-  struct process_result result;
-  assert_int_equal(run((struct process_request){.timeout = 0.05}, "sleep 1000", &result), STATUS_LIMIT);
-}
-
-/* What is in the folder already does not count. */
-IN_FOLDER(its_files_may_grow_so_far)
-{
-  struct process_result result;
-  const struct process_request most = {.folder = "inside", .written = 2000000, .timeout = 30};
-  put_text("inside/file", "0123456789");
-  assert_int_equal(run(most, "head -c 1500000 /dev/zero >>file; sleep 0.3", &result), STATUS_OK);
-  assert_true(!result.overfull && result.exit_code == 0);
-  assert_int_equal(run(most, "head -c 2500000 /dev/zero >>file; sleep 20", &result), STATUS_LIMIT);
-  assert_true(result.overfull);
-  const struct process_request late = {.folder = "inside", .written = 2000000, .timeout = 0.1};
-  assert_int_equal(run(late, "sleep 20", &result), STATUS_LIMIT);
-  assert_false(result.overfull);
 }
 
 int main(void)
