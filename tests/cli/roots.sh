@@ -9,8 +9,10 @@ try pscn roots file
 try pscn roots - <file
 try pscn roots --format table <file
 printf '\xef\xbb' | try pscn roots 2>&1
-for solver in bernstein newton laguerre aberth 'aberth { basis bernstein }' 'newton { form paper }'; do
-  printf '1 -0.25 0\n4 -1\n8 -1 0 0\n' | try pscn roots --solver "$solver"
+printf '1 -0.25 0\n4 -1\n8 -1 0 0\n' >file
+try pscn roots --solver bernstein <file | tee same
+for solver in newton laguerre aberth 'aberth { basis bernstein }' 'newton { form paper }'; do
+  try pscn roots --solver "$solver" <file | cmp - same
 done
 # Roots of equal real part are sorted by the imaginary part.
 echo '1 0 5 0 4' | try pscn roots --solver laguerre
