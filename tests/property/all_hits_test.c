@@ -161,7 +161,6 @@ TEST(corners_too)
   }
   world_close(&world);
   assert_int_equal(wrong, 0);
-  print_message("%d of %d rays through corners are certain\n", certain, CORNER_RAYS);
   assert_true(certain > CORNER_RAYS / 20);
 }
 
@@ -450,14 +449,7 @@ TEST(test_worn)
       grazing += alone.certainty == CERTAINTY_GRAZING, wrong += !same_list(&alone, &list);
     }
   }
-  print_message("%d of %d rays are grazing, %d told otherwise together\n", grazing, PACKETS * PACKET_SIZE, wrong);
   assert_true(grazing > PACKETS * PACKET_SIZE / 8);
   assert_int_equal(wrong, 0);
   world_close(&world);
-}
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
 }

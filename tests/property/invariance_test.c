@@ -176,9 +176,3 @@ TEST(an_empty_scene_is_missed)
   assert_int_equal(tracer_counts(world.tracer)->rays[1], 1);
   world_close(&world);
 }
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
-}

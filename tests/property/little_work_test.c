@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "cmocka_test.h"
-#include "power_net.h"
 #include "property/world.h"
 
 enum { SEED = 20261122 };
@@ -24,7 +23,7 @@ static void sheet(size_t number, world_net net)
 enum { NETS = 300, NET_RAYS = 400 };
 
 /* Rays at the middle of these nets are all certain, and each is tried on at most `few` leaves, on average. */
-static void few_are_tried(const char *name, world_net nets[NETS], double few)
+static void few_are_tried(world_net nets[NETS], double few)
 {
   struct random random = {SEED};
   struct world world;
@@ -35,7 +34,6 @@ static void few_are_tried(const char *name, world_net nets[NETS], double few)
     assert_int_equal(world_closest(&world, &ray).certainty, CERTAINTY_CERTAIN);
   }
   const double tried = (double)tracer_counts(world.tracer)->patches_tested / NET_RAYS;
-  print_message("%s: %.2f leaves a ray\n", name, tried);
   assert_true(tried <= few);
   world_close(&world);
 }
@@ -46,7 +44,7 @@ TEST(of_a_stack_few_are_tried)
 {
   world_net nets[NETS];
   for (size_t n = 0; n < NETS; n++) sheet(n, nets[n]);
-  few_are_tried("a stack", nets, 1.1);
+  few_are_tried(nets, 1.1);
 }
 
 /* A line from one point to another, along v, along u or along both; or a strip far narrower than it is long. */
@@ -71,7 +69,7 @@ TEST(of_lines_few_are_tried)
   world_net nets[NETS];
   struct random random = {SEED};
   for (size_t n = 0; n < NETS; n++) thread(&random, n, nets[n]);
-  few_are_tried("lines", nets, 0.1);
+  few_are_tried(nets, 0.1);
 }
 
 /* ---- twins ---- */
@@ -170,7 +168,6 @@ TEST(next_to_poles_little_is_left_open)
       assert_int_equal(world_closest(&world, &ray).patch, HIT_NONE);
     }
     const uint64_t open = tracer_counts(world.tracer)->escalated;
-    print_message("a ball of %g: %.3f leaves left open a ray\n", radii[k], (double)open / (2 * PLANET_RAYS));
     assert_in_range(open, 0, PLANET_RAYS / 2);
     world_close(&world);
   }
@@ -194,32 +191,23 @@ TEST(next_to_poles_little_is_left_open_aslant)
       assert_int_equal(world_closest(&world, &ray).certainty, CERTAINTY_CERTAIN);
     }
     const uint64_t open = tracer_counts(world.tracer)->escalated;
-    print_message("a ball of %g, aslant: %.3f leaves left open a ray\n", radii[k], (double)open / ASLANT_RAYS);
     assert_in_range(open, 0, ASLANT_RAYS / 50);
     world_close(&world);
   }
 }
 
-/* A quarter of a cone whose inner control points coincide with its ends; its tip is at 0. */
-static void cone_quarter(size_t number, world_net net)
-{
-  static const double k = 0.5522847498, arc[4][2] = {{1, 0}, {1, k}, {k, 1}, {0, 1}};
-  const double x = number & 1 ? -1 : 1, z = number & 2 ? -1 : 1;
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++)
-      net[i][j][0] = i / 2 * x * arc[j][0], net[i][j][1] = -(i / 2), net[i][j][2] = i / 2 * z * arc[j][1];
-}
-
 /* ---- in a plane ---- */
 
 /* A quarter of a disc round the origin, flat in y = 0, with a pole in its middle. */
-static void disc_quarter(size_t quarter, world_net net)
+static void disc_quarter(size_t number, world_net net)
 {
-  cone_quarter(quarter, net);
-  for (int e = 0; e < 16; e++) {
-    for (int k = 0; k < 3; k += 2) net[e / 4][e % 4][k] = net[3][e % 4][k] * (e / 4) / 3;
-    net[e / 4][e % 4][1] = 0;
-  }
+  static const double k = 0.5522847498, arc[4][2] = {{1, 0}, {1, k}, {k, 1}, {0, 1}};
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      net[i][j][0] = (number & 1 ? -i : i) * arc[j][0] / 3;
+      net[i][j][1] = 0;
+      net[i][j][2] = (number & 2 ? -i : i) * arc[j][1] / 3;
+    }
 }
 
 /* A ray in the plane of a flat patch meets curves, which begin on its borders. */
@@ -245,7 +233,6 @@ TEST(of_what_lies_in_a_plane_little_is_looked_at)
     assert_int_equal(list.certainty, CERTAINTY_GRAZING);
     assert_true(list.count > 0);
   }
-  print_message("in a plane: work %d at most\n", (int)most);
   assert_in_range(most, 0, WORK_MOST);
   world_close(&world);
 }
@@ -275,7 +262,6 @@ TEST(solvers_are_charged)
     const struct ray ray = {.origin = {0, 0, -5}, .direction = {0, 0.01, 1}, .t_max = INFINITY};
     (void)world_closest(&world, &ray);
     const int solved = (int)(tracer_counts(world.tracer)->roots_found / 18);
-    print_message("%s: %d solved\n", names[way], solved);
     assert_in_range(solved, 1, MOST_SOLVED);
     world_close(&world);
   }

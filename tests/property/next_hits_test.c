@@ -41,7 +41,6 @@ TEST(leaving_a_surface_does_not_meet_it)
       world_close(&world);
     }
   }
-  print_message("%d rays left\n", left);
   assert_true(left > 300);
   assert_int_equal(wrong, 0);
 }
@@ -74,10 +73,4 @@ TEST(a_sheet_right_behind_is_not_skipped)
     }
     world_close(&world);
   }
-}
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
 }

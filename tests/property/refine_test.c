@@ -273,7 +273,6 @@ TEST(roots_next_to_poles_are_alone_where_they_are_said_to_be)
   for (size_t k = 0; k < sizeof splits / sizeof *splits; k++) {
     fan_roots = (struct tally){0};
     on_leaves(SEED + 40 + k, splits[k], true, splits[k] * CASES / 8, check_fan);
-    print_message("split %d: %d proven, %d of them alone\n", splits[k], fan_roots.exist, fan_roots.alone);
     assert_int_equal(fan_roots.outside_radius, 0);
     assert_int_equal(fan_roots.not_alone, 0);
   }
@@ -344,10 +343,4 @@ TEST(roots_of_leaves_that_bend_little_are_right_to_the_last_places)
   assert_int_equal(leaf_roots.outside_radius, 0);
   assert_int_equal(leaf_roots.not_alone, 0);
   assert_true(worst_residual <= 0.5 && worst_place <= 0.5 && worst_point <= 0.5 && worst_tangent <= 0.5);
-}
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
 }

@@ -113,9 +113,3 @@ TEST(bowls_stand_in_bowls)
   assert_true(met >= BOWL_RAYS / 4);
   world_close(&world);
 }
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
-}

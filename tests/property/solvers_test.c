@@ -123,7 +123,6 @@ TEST(bare_roots_are_the_solvers_own)
       }
     }
   }
-  print_message("of %d hits on height fields %d lost\n", hits, lost);
   assert_true(hits > FIELDS * RAYS);
   assert_in_range(lost, 0, hits / 1000);
 }
@@ -163,14 +162,7 @@ TEST(rounding_makes_no_root_complex)
       world_close(&world);
     }
   }
-  print_message("of %d hits %d, %d not found, %d, %d phantoms\n", hits, wrong[0], wrong[1], phantoms[0], phantoms[1]);
   assert_true(hits > RAYS);
   assert_in_range(wrong[1], 0, wrong[0] + SLACK);
   assert_in_range(phantoms[1], 0, phantoms[0] + SLACK);
-}
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
 }

@@ -142,8 +142,6 @@ static void compare(const struct pair *pair, int kind, struct random *random, wo
         assert_all_there(pair, all, few), certain++;
     }
   }
-  print_message("kind %d: %zu patches of %zu, %zu hits, %zu of %d certain of all\n", kind, pair->scene[1].patch_count,
-                pair->scene[0].patch_count, hits, certain, RAYS);
   assert_true(hits > RAYS / 16 && certain > RAYS / 4);
 }
 
@@ -220,7 +218,6 @@ TEST(that_are_copies)
     if (hit[1].patch != HIT_NONE) hit[1].patch %= (uint32_t)count;
     assert_same_hit("copies", WORLD_DOME, &ray, &hit[0], &hit[1]);
   }
-  print_message("%zu hits\n", hits);
   assert_true(hits > RAYS / 2);
   for (int k = 0; k < 2; k++) free(pair.scene[k].copies);
   pair_close(&pair);

@@ -100,7 +100,6 @@ static void answers_are_the_same(void **state)
     const int hits = compare(kind, (struct tracer *[]){sides[0].tracer, sides[1].tracer}, &random, nets, count) +
                      compare(kind, (struct tracer *[]){sides[0].tracer, &anew}, &random, nets, count);
     tracer_end(&anew);
-    print_message("kind %d: %d rays, %d hits\n", kind, 2 * RAYS, hits);
     assert_true(hits > RAYS / 16);
     for (int k = 0; k < 2; k++) side_close(&sides[k]);
   }
