@@ -219,9 +219,3 @@ TEST(flat_and_long_boxes)
   }
   check(boxes, MANY);
 }
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
-}

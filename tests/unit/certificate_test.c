@@ -180,8 +180,8 @@ static double try_surfaces(const struct turning *longer)
 TEST(what_passes_of_two_rows_is_near)
 {
   double most = 0;
-  for (int bend = -20; bend <= 40; bend += 5) {
-    for (int size = -58; size <= -10; size += 4) {
+  for (int bend = -20; bend <= 40; bend += 10) {
+    for (int size = -58; size <= -10; size += 8) {
       struct turning f = {.bend = ldexp(1, bend), .size = ldexp(1, size)};
       f.step = limit(step_passes, &f);
       if (f.step >= 0) most = worse(most, try_surfaces(&f));

@@ -100,9 +100,3 @@ TEST(negation_and_normal_form)
   assert_true(a.hi == -1 && a.lo == -0x1p-60);
   assert_true(b.hi == 1 + 0x1p-30 && b.lo == 0);
 }
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
-}

@@ -229,12 +229,9 @@ TEST(a_grid_with_a_stride)
   double height[3 * SIDE + 1][3 * SIDE + 1];
   for (int i = 0; i <= 3 * SIDE; i++)
     for (int j = 0; j <= 3 * SIDE; j++) height[i][j] = random_unit(&random);
-  int place[COUNT];
-  for (int k = 0; k < COUNT; k++) place[k] = k;
-  for (int k = COUNT - 1; k > 0; k--) {
-    const int other = (int)(random_bits(&random) % (unsigned)(k + 1)), swap = place[k];
-    place[k] = place[other], place[other] = swap;
-  }
+  size_t place[COUNT];
+  for (size_t k = 0; k < COUNT; k++) place[k] = k;
+  random_shuffle(&random, COUNT, place);
   for (int a = 0; a < SIDE; a++) {
     for (int b = 0; b < SIDE; b++) {
       double(*P)[4][3] = records[place[a * SIDE + b]].P;
@@ -248,11 +245,12 @@ TEST(a_grid_with_a_stride)
   for (int a = 0; a < SIDE; a++) {
     for (int b = 0; b < SIDE; b++) {
       const struct edge_neighbour *here = &n[4 * place[a * SIDE + b]];
-      const int want[4] = {a > 0 ? place[(a - 1) * SIDE + b] : -1, a + 1 < SIDE ? place[(a + 1) * SIDE + b] : -1,
-                           b > 0 ? place[a * SIDE + b - 1] : -1, b + 1 < SIDE ? place[a * SIDE + b + 1] : -1};
+      const size_t want[4] = {
+        a > 0 ? place[(a - 1) * SIDE + b] : EDGE_NONE, a + 1 < SIDE ? place[(a + 1) * SIDE + b] : EDGE_NONE,
+        b > 0 ? place[a * SIDE + b - 1] : EDGE_NONE, b + 1 < SIDE ? place[a * SIDE + b + 1] : EDGE_NONE};
       for (int k = 0; k < 4; k++) {
-        assert_int_equal(here[k].patch, want[k] < 0 ? EDGE_NONE : (uint32_t)want[k]);
-        if (want[k] >= 0) assert_true(here[k].border == (k ^ 1) && !here[k].reversed);
+        assert_int_equal(here[k].patch, want[k]);
+        if (want[k] != EDGE_NONE) assert_true(here[k].border == (k ^ 1) && !here[k].reversed);
       }
     }
   }
@@ -269,10 +267,4 @@ TEST(points_run_with_the_parameter_and_none_is_fine)
     for (int k = 0; k < 4; k++) assert_memory_equal(out[k], border_point(P, border, k), sizeof out[k]);
   }
   assert_int_equal(edges_match(NULL, sizeof P, 0, NULL, NULL, NULL), STATUS_OK);
-}
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
 }

@@ -294,9 +294,3 @@ TEST(second_derivative_bounds_hold_and_are_near)
   assert_true(worst <= 1 + 1e-12); /* the error of differences of derivatives */
   assert_true(best > 0.1);         /* bounds are of the leaf widened */
 }
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
-}

@@ -132,21 +132,6 @@ TEST(the_whole_is_copied_and_cuts_agree)
   for (int j = 0; j < 4; j++) assert_true(cut[0][j] == 0.1);
 }
 
-/* The polynomial continues outside [0,1]; a leaf's margin relies on it. */
-TEST(parameters_beyond_the_range_extrapolate)
-{
-  struct random random = {SEED + 5};
-  for (int n = 0; n < 200; n++) {
-    double net[4][4], wide[4][4];
-    random_net(&random, net);
-    patch_subnet(net, -0.125, 1.125, -0.125, 1.125, wide);
-    const double u = random_unit(&random), v = random_unit(&random);
-    const struct patch_jet a = patch_evaluate(wide, u, v), b = patch_evaluate(net, 1.25 * u - 0.125, 1.25 * v - 0.125);
-    assert_true(fabs(a.value - b.value) <= 64 * UNIT * largest(wide));
-    assert_true(fabs(a.du - 1.25 * b.du) <= 512 * UNIT * largest(wide));
-  }
-}
-
 /* ---- degrees ---- */
 
 /* The net of bidegree (m,n) raised to (3,3), scaled and moved, and rounded once at the end. */
@@ -241,10 +226,4 @@ TEST(reduced_nets_are_the_nets_that_were_raised)
   /* One rounding of each cubic coefficient, with weights 1/4 (3 + 3 + 1 + 1) = 2 a direction, and four of the value's
    * own. */
   assert_true(worst <= 16 && worst > 0.5);
-}
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
 }

@@ -123,36 +123,6 @@ TEST(bezout_is_sylvester_up_to_sign)
   }
 }
 
-/* The values of r are the determinants of values. Tried at points, so that a wrong binomial in one place cannot hide
- * behind the same one in another. */
-TEST(coefficients_are_those_of_the_determinant_of_values)
-{
-  struct random random = {SEED + 1};
-  for (int m = 1; m <= 3; m++) {
-    for (int n = 1; n <= 3; n++) {
-      for (int k = 0; k < 100; k++) {
-        double a[16], b[16], c[TERMS], p[4] = {0}, q[4] = {0}, at[TERMS];
-        random_net(&random, m, n, a);
-        random_net(&random, m, n, b);
-        const double u = random_unit(&random);
-        bezout_resultant(m, n, a, b, c);
-        for (int i = 0; i <= m; i++)
-          for (int j = 0; j <= n; j++) {
-            const double w = choose(m, i) * pow(u, i) * pow(1 - u, m - i) * choose(n, j);
-            p[j] += w * a[4 * i + j], q[j] += w * b[4 * i + j];
-          }
-        /* Sylvester's determinant of the numbers, put into nets that do not depend on u. */
-        double P[16] = {0}, Q[16] = {0};
-        for (int j = 0; j <= n; j++) P[j] = p[j], Q[j] = q[j];
-        sylvester_determinant(1, n, P, Q, at);
-        double value = 0;
-        for (int e = 0; e <= 2 * m * n; e++) value += c[e] * pow(u, e) * pow(1 - u, 2 * m * n - e);
-        assert_true(fabs(fabs(value) - fabs(at[0])) <= 1e-11 * RESULTANT_WEIGHT[n]);
-      }
-    }
-  }
-}
-
 /* The nets of a case: plain random ones, and some that strain a bound: signs that add up, entries of very different
  * size, a and b nearly proportional, nets of a flat patch seen edge-on. */
 static void strained_nets(struct random *random, int kind, int m, int n, double a[16], double b[16])
@@ -286,29 +256,6 @@ TEST(a_common_root_is_a_root_of_r)
   }
 }
 
-/* The null vector also gives roots outside [0,1], and is accurate for exact data. */
-TEST(null_vectors_of_known_roots)
-{
-  /* (v - 1/4) times two unlike polynomials, n = 1, 2, 3, in Bernstein form. */
-  static const double v0[] = {0.25, -0.5, 1.5, 0, 1};
-  for (size_t r = 0; r < sizeof v0 / sizeof *v0; r++) {
-    const double x = v0[r], c0 = -x, c1 = 1 - x; /* v - x over [0,1] */
-    const double f[3] = {1, 2, -1}, g[3] = {3, -1, 0.5};
-    for (int n = 1; n <= 3; n++) {
-      double p[4] = {0}, q[4] = {0}, num[2], den[2], better;
-      for (int i = 0; i < n; i++) { /* degree elevation by multiplication */
-        p[i] += choose(n - 1, i) * f[i] * c0 / choose(n, i),
-          p[i + 1] += choose(n - 1, i) * f[i] * c1 / choose(n, i + 1);
-        q[i] += choose(n - 1, i) * g[i] * c0 / choose(n, i),
-          q[i + 1] += choose(n - 1, i) * g[i] * c1 / choose(n, i + 1);
-      }
-      bezout_null_vector(n, p, q, num, den, &better);
-      const int row = better > 0 ? 0 : 1;
-      assert_true(fabs(num[row] / den[row] - x) < 1e-14);
-    }
-  }
-}
-
 TEST(lanes_equal_doubles)
 {
   struct random random = {SEED + 4};
@@ -335,10 +282,4 @@ TEST(lanes_equal_doubles)
       }
     }
   }
-}
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
 }

@@ -8,7 +8,6 @@
 #include "algebra/root_problem.h"
 #include "algebra/start.h"
 #include "cmocka_test.h"
-#include "random.h"
 
 static struct root_set solve(const char *name, int degree, enum basis basis, const double c[], const double error[])
 {
@@ -170,48 +169,6 @@ TEST(roots_next_to_open_ends)
                           -2.7979046910829592,    7.745809270436902,    -15.31524554494498,   21.62735319655019,
                           -21.376176534431394,    14.083594771241811,   -5.566666666666663,   1.0};
   assert_true(found_all(11, BASIS_POWER, tower, NULL, 0.56255857303151413));
-}
-
-/* Random real roots and pairs: every solver finds every real root in [0,1], and all solvers agree. */
-TEST(random_roots)
-{
-  enum { TRIALS = 400 };
-  struct random random = {21};
-  for (int trial = 0; trial < TRIALS; trial++) {
-    const int degree = 2 + (int)(random_bits(&random) % 8);
-    double c[POLYNOMIAL_MAX_DEGREE + 1] = {1.0}, real[POLYNOMIAL_MAX_DEGREE];
-    int n = 0, real_count = 0;
-    while (n < degree) { /* multiply by (a u - b (1-u)), or by a positive quadratic, in scaled Bernstein form */
-      double factor[3];
-      int m = 1;
-      if (degree - n >= 2 && random_bits(&random) % 2 == 0) {
-        m = 2;
-        factor[0] = random_between(&random, 0.5, 2.0);
-        factor[1] = random_between(&random, -0.5, 0.5);
-        factor[2] = random_between(&random, 0.5, 2.0);
-      } else {
-        factor[0] = -random_between(&random, 0.1, 1.0);
-        factor[1] = random_between(&random, 0.1, 1.0);
-        real[real_count++] = -factor[0] / (factor[1] - factor[0]);
-      }
-      double product[POLYNOMIAL_MAX_DEGREE + 1] = {0};
-      for (int i = 0; i <= n; i++)
-        for (int j = 0; j <= m; j++) product[i + j] += c[i] * factor[j];
-      n += m;
-      memcpy(c, product, sizeof c);
-    }
-    /* The roots above are those of the unrounded product: one rounding for a product and one for a sum, per factor. */
-    double error[POLYNOMIAL_MAX_DEGREE + 1];
-    for (int k = 0; k <= degree; k++) error[k] = 0x1p-45;
-    for (size_t s = 0; s < solver_count(); s++) {
-      const struct root_set roots = solve(solver_at(s)->name, degree, BASIS_BERNSTEIN, c, error);
-      assert_true(solver_at(s)->real_only || roots.count == degree);
-      for (int k = 0; k < real_count; k++) {
-        if (!found(&roots, real[k])) print_error("trial %d: %s lost %.17g\n", trial, solver_at(s)->name, real[k]);
-        assert_true(found(&roots, real[k]));
-      }
-    }
-  }
 }
 
 /* `start previous` along a family whose two real roots meet, become a complex pair, and return. */

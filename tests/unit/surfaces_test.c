@@ -88,9 +88,3 @@ TEST(planes_are_found)
   assert_int_equal(surfaces_find(P, sizeof *P, 6, found), STATUS_OK);
   assert_true(SURFACE_AXIS(found[1]) == 1 && found[4] == 0);
 }
-
-int main(void)
-{
-  print_message("seed %d\n", SEED);
-  return test_run();
-}
