@@ -1,4 +1,4 @@
-/* The reference against closed forms, brute force and perturbation. */
+/* The reference against closed forms and perturbation. (accuracy-certificate compares it with the exact judge.) */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -172,91 +172,6 @@ static void random_ray(struct random *random, double origin[3], double direction
     origin[axis] = random_between(random, -5, 5);
     direction[axis] = random_between(random, -2, 2) - origin[axis];
   }
-}
-
-/* Plain Newton's method on S(u,v) - o - t d = 0 in double from one start. Returns t of a zero well inside the patch, or
- * INFINITY. */
-static double newton_hit(const double P[4][4][3], const double o[3], const double d[3], double u, double v)
-{
-  double t = 0;
-  for (int step = 0; step < 30; step++) {
-    double F[3], M[3][3];
-    for (int axis = 0; axis < 3; axis++) {
-      double bu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u};
-      double bv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
-      double du[4] = {-3 * (1 - u) * (1 - u), 3 * (1 - u) * (1 - 3 * u), 3 * u * (2 - 3 * u), 3 * u * u};
-      double dv[4] = {-3 * (1 - v) * (1 - v), 3 * (1 - v) * (1 - 3 * v), 3 * v * (2 - 3 * v), 3 * v * v};
-      F[axis] = -o[axis] - t * d[axis];
-      M[axis][0] = M[axis][1] = 0;
-      M[axis][2] = -d[axis];
-      for (int i = 0; i < 4; i++) {
-        for (int j = 0; j < 4; j++) {
-          F[axis] += bu[i] * bv[j] * P[i][j][axis];
-          M[axis][0] += du[i] * bv[j] * P[i][j][axis];
-          M[axis][1] += bu[i] * dv[j] * P[i][j][axis];
-        }
-      }
-    }
-    double step_of[3], determinant = 0;
-    for (int k = 0; k < 3; k++)
-      determinant += M[0][k] * (M[1][(k + 1) % 3] * M[2][(k + 2) % 3] - M[1][(k + 2) % 3] * M[2][(k + 1) % 3]);
-    for (int row = 0; row < 3; row++) {
-      step_of[row] = 0;
-      for (int column = 0; column < 3; column++) {
-        const int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
-        step_of[row] += (M[r1][c1] * M[r2][c2] - M[r1][c2] * M[r2][c1]) / determinant * F[column];
-      }
-    }
-    u -= step_of[0];
-    v -= step_of[1];
-    t -= step_of[2];
-    if (!isfinite(u) || !isfinite(v) || fabs(u) > 3 || fabs(v) > 3) return INFINITY;
-    if (fabs(step_of[0]) + fabs(step_of[1]) + fabs(step_of[2]) < 1e-12) {
-      const double margin = 1e-9;
-      const bool well_inside = u > margin && u < 1 - margin && v > margin && v < 1 - margin && t > margin;
-      return well_inside ? t : INFINITY;
-    }
-  }
-  return INFINITY;
-}
-
-/* From no start of a grid does Newton's method find a hit that the reference lacks, and the reference's hits are common
- * points. */
-TEST(test_brute_force)
-{
-  enum { STARTS = 7 };
-  size_t rays = effort_count(50000, 300), hits = 0, misses = 0, grazing = 0;
-  struct random random = {.state = 20240611};
-  for (size_t n = 0; n < rays; n++) {
-    double P[1][4][4][3], origin[3], direction[3];
-    random_net(&random, n % 3 == 0 ? 0.4 : n % 3 == 1 ? 2 : 6, P[0]);
-    random_ray(&random, origin, direction);
-    struct reference *reference = reference_create(P, 1);
-    assert_non_null(reference);
-    struct reference_answer a;
-    reference_closest(reference, origin, direction, &a);
-    double nearest = INFINITY;
-    for (int s = 0; s < STARTS * STARTS; s++)
-      nearest = fmin(nearest, newton_hit((const double(*)[4][3])P[0], origin, direction, (s / STARTS + 0.5) / STARTS,
-                                         (s % STARTS + 0.5) / STARTS));
-    if (nearest < a.t_first * (1 - 1e-9)) fail_msg("ray %zu: hit at %.17g, reference %.17g", n, nearest, a.t_first);
-    if (a.verdict == REFERENCE_HIT) {
-      hits++;
-      assert_true(a.t > 0 && a.u >= -a.radius && a.u <= 1 + (quad)a.radius);
-      /* Rounding t, u, v to double moves the point by a unit of the largest coordinate times the derivatives. */
-      assert_true(
-        facts_residual(reference_net(reference, 0), origin, direction, (double)a.t, (double)a.u, (double)a.v) < 1e-13);
-      const double incidence = facts_of(P, origin, direction, &a).incidence;
-      assert_true(a.t_radius < 1e-20 && incidence >= 0 && incidence <= 1);
-    } else if (a.verdict == REFERENCE_MISS) {
-      misses++;
-    } else {
-      grazing++;
-    }
-    reference_destroy(reference);
-  }
-  printf("brute force: %zu hits, %zu misses, %zu grazing\n", hits, misses, grazing);
-  assert_true(hits > rays / 10 && misses > rays / 20 && grazing <= rays / 1000);
 }
 
 /* Moving every input coordinate by one rounding moves the hit by no more than the floor, to first order. */

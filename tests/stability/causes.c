@@ -13,7 +13,7 @@
  * loose      the method finds the hit with eps = 1e-12
  * other
  *
- * `causes CLASS` does one class only. `causes projected` prints only where the hits lost in the paper's pictures lie: at a
+ * `causes projected` prints only where the hits lost in the paper's pictures lie: at a
  * tangency, or where only the projection onto u makes a double root, whatever else spoils them. `causes conditions`
  * prints, hit by hit, condition numbers and errors of u (conditions_of). */
 #include <complex.h>
@@ -22,12 +22,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accuracy/generate.h"
 #include "base/diagnostics.h"
 #include "effort.h"
 #include "geometry/vector.h"
 #include "intersect/local_ray.h"
 #include "intersect/method.h"
 #include "language/language.h"
+#include "method_of.h"
+#include "property/world.h"
 #include "reference/quad.h"
 #include "render/camera.h"
 #include "stability/net_classes.h"
@@ -36,7 +39,7 @@
 #define BEZOUT_NAME(name) bezout_quad_##name
 #include "algebra/bezout.h"
 
-enum { DEGREE = 18, FULL_NETS = 50, LEAST_NETS = 4, METHODS = 3, WAYS = 6 };
+enum { DEGREE = 18, FULL_NETS = 50, LEAST_NETS = 2, METHODS = 3, WAYS = 6 };
 
 /* Roots nearer than this in u are near: of 18 roots evenly in [0,1], each is 0.06 from the next. */
 #define NEAR_U 0.03
@@ -155,40 +158,7 @@ struct counts {
   size_t rays, hits, lost, invented, cause[CAUSES], geometry[CAUSES];
 };
 
-static void tell(void *context, const char *text, size_t length)
-{
-  (void)context;
-  fwrite(text, 1, length, stderr);
-}
-
-/* One patch with all ways of a method. */
-struct target {
-  struct scene scene;
-  struct scene_patch patch;
-  struct method solver;
-  struct intersector *intersector;
-  struct tracer *tracer;
-};
-
-static bool target_make(struct target *target, net4 P, const char *solver)
-{
-  struct diagnostics diagnostics = {.tell = tell};
-  *target = (struct target){.intersector = NULL};
-  if (language_parse_solver(solver, &diagnostics, &target->solver) != STATUS_OK) return false;
-  memcpy(target->patch.P, P, sizeof target->patch.P);
-  target->scene = (struct scene){
-    .patches = &target->patch, .patch_count = 1, .solvers = &target->solver, .solver_count = 1};
-  return intersector_create(&target->scene, &target->intersector) == STATUS_OK &&
-         tracer_create(target->intersector, &target->tracer) == STATUS_OK;
-}
-
-static void target_free(struct target *target)
-{
-  tracer_destroy(target->tracer);
-  intersector_destroy(target->intersector);
-}
-
-static bool finds(struct target *target, const struct ray *ray, const struct hit *truth)
+static bool finds(struct world *target, const struct ray *ray, const struct hit *truth)
 {
   struct hit hit;
   tracer_closest(target->tracer, 1, ray, &hit);
@@ -197,18 +167,19 @@ static bool finds(struct target *target, const struct ray *ray, const struct hit
 
 /* The rays against the patch, by the first `ways` ways of all methods, in their order (with `start previous` that
  * matters). */
-static bool count_rays(net4 P, size_t count, const struct ray rays[], const char *items, int ways,
+static void count_rays(net4 P, size_t count, const struct ray rays[], const char *items, int ways,
                        struct counts out[METHODS])
 {
-  struct target truth, target[METHODS][WAYS] = {0};
-  bool good = target_make(&truth, P, "bernstein");
+  static struct world truth, target[METHODS][WAYS];
+  world_open(&truth, (world_net *)P, 1, NULL);
   for (int m = 0; m < METHODS; m++)
     for (int w = 0; w < ways; w++) {
       char text[200];
       snprintf(text, sizeof text, "%s { form paper max_iterations 500 %s %s }", METHOD[m], items, WAY[w]);
-      good = target_make(&target[m][w], P, text) && good;
+      const struct method method = method_of(text);
+      world_open(&target[m][w], (world_net *)P, 1, &method);
     }
-  for (size_t n = 0; good && n < count; n++) {
+  for (size_t n = 0; n < count; n++) {
     struct hit hit;
     tracer_closest(truth.tracer, 1, &rays[n], &hit);
     const bool certain = hit.certainty == CERTAINTY_CERTAIN;
@@ -239,19 +210,9 @@ static bool count_rays(net4 P, size_t count, const struct ray rays[], const char
       out[m].cause[cause]++, out[m].geometry[geometry]++;
     }
   }
-  target_free(&truth);
-  for (int m = 0; m < METHODS * WAYS; m++) target_free(&target[m / WAYS][m % WAYS]);
-  return good;
-}
-
-static void exchange(net4 P)
-{
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < i; j++)
-      for (int k = 0; k < 3; k++) {
-        const double swap = P[i][j][k];
-        P[i][j][k] = P[j][i][k], P[j][i][k] = swap;
-      }
+  world_close(&truth);
+  for (int m = 0; m < METHODS; m++)
+    for (int w = 0; w < ways; w++) world_close(&target[m][w]);
 }
 
 /* Wilson's interval of 95 % for a share. */
@@ -293,7 +254,7 @@ static bool count_picture(const char *name, const char *file, const char *items,
   char path[400];
   snprintf(path, sizeof path, "%s/scenes/%s", PSCN_SOURCE_DIR, file);
   const struct language_settings settings = {.image_width = WIDTH, .image_height = HEIGHT, .tolerance = NAN};
-  struct diagnostics diagnostics = {.tell = tell};
+  struct diagnostics diagnostics = {0};
   struct scene *scene = NULL;
   if (language_load(path, &settings, &diagnostics, &scene) != STATUS_OK) return false;
   const size_t width = (size_t)(WIDTH / side), count = width * (size_t)(HEIGHT / side);
@@ -303,8 +264,8 @@ static bool count_picture(const char *name, const char *file, const char *items,
   struct counts counts[METHODS] = {0};
   net4 P;
   memcpy(P, scene->patches[0].P, sizeof P);
-  if (exchanged) exchange(P);
-  const bool good = count_rays(P, count, rays, items, causes ? WAYS : 1, counts);
+  if (exchanged) transpose(P);
+  count_rays(P, count, rays, items, causes ? WAYS : 1, counts);
   if (causes) print_counts(name, exchanged, counts);
   else print_geometry(name, counts);
   /* What the page says of Fig 17, with the parameters in either order: Newton's method loses many hits, nearly all to
@@ -313,7 +274,7 @@ static bool count_picture(const char *name, const char *file, const char *items,
                      (counts[2].lost * 20 < counts[0].lost && counts[0].lost > 0 &&
                       counts[0].cause[FAR] * 10 > counts[0].lost * 9);
   scene_destroy(scene);
-  return good && facts;
+  return facts;
 }
 
 /* ---- condition numbers ---- */
@@ -321,7 +282,7 @@ static bool count_picture(const char *name, const char *file, const char *items,
 /* For a hit: by how much relative errors of 2^-53 in the coefficients move u, as a root of r in powers (the sum of
  * |c_k u^k| over |r'|), as a root of r in Bernstein form (the same with its terms), and as a common root of a and b; and
  * the errors of u by Aberth's method in the paper's form, by the same in Bernstein form, and with polish. */
-static void conditions_of(net4 P, const struct ray *ray, struct target target[3])
+static void conditions_of(net4 P, const struct ray *ray, struct world target[3])
 {
   struct hit hit[3];
   for (int k = 0; k < 3; k++) tracer_closest(target[k].tracer, 1, ray, &hit[k]);
@@ -358,23 +319,24 @@ static void conditions_of(net4 P, const struct ray *ray, struct target target[3]
   printf("\n");
 }
 
-static bool conditions(void)
+static void conditions(void)
 {
   static const char *const ways[3] = {"aberth { form paper tolerance 1e-12 max_iterations 500 }",
                                       "aberth { polish off split 1 tolerance 1e-15 }", "bernstein { split 1 }"};
   struct random random = {.state = 41};
-  bool good = true;
   printf("power,bernstein,both,paper error,bernstein error,polished error\n");
-  for (int index = 0; good && index < 20; index++) {
+  for (int index = 0; index < 20; index++) {
     net4 P;
     struct ray rays[RAYS];
-    struct target target[3];
+    static struct world target[3];
     net_class_at(NET_RANDOM)->make(&random, P, rays);
-    for (int k = 0; k < 3; k++) good = target_make(&target[k], P, ways[k]) && good;
-    for (int n = 0; good && n < RAYS; n++) conditions_of(P, &rays[n], target);
-    for (int k = 0; k < 3; k++) target_free(&target[k]);
+    for (int k = 0; k < 3; k++) {
+      const struct method method = method_of(ways[k]);
+      world_open(&target[k], (world_net *)P, 1, &method);
+    }
+    for (int n = 0; n < RAYS; n++) conditions_of(P, &rays[n], target);
+    for (int k = 0; k < 3; k++) world_close(&target[k]);
   }
-  return good;
 }
 
 static bool pictures(bool exchanged, bool causes)
@@ -385,27 +347,26 @@ static bool pictures(bool exchanged, bool causes)
 
 int main(int argc, char **argv)
 {
-  if (argc > 1 && strcmp(argv[1], "conditions") == 0) return conditions() ? EXIT_SUCCESS : EXIT_FAILURE;
+  if (argc > 1 && strcmp(argv[1], "conditions") == 0) return conditions(), EXIT_SUCCESS;
   if (argc > 1 && strcmp(argv[1], "projected") == 0) {
     printf("class,method,lost,tangent,projected\n");
     return pictures(false, false) ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  const char *only = argc > 1 ? argv[1] : "";
   bool good = true;
   printf("class,parameters,method,rays,hits,invented,lost,low,high,lower,far,tangent,projected,rounding,euclid,loose,"
          "other\n");
-  for (int exchanged = 0; exchanged < 2 && *only == '\0'; exchanged++) good &= pictures(exchanged, true);
+  for (int exchanged = 0; exchanged < 2; exchanged++) good &= pictures(exchanged, true);
   const size_t nets = effort_count(FULL_NETS, LEAST_NETS);
   for (size_t k = 0; k < net_class_count(); k++)
-    for (int exchanged = 0; exchanged < 2 && (*only == '\0' || strcmp(only, net_class_at(k)->name) == 0); exchanged++) {
+    for (int exchanged = 0; exchanged < 2; exchanged++) {
       struct random random = {.state = 7 + k};
       struct counts counts[METHODS] = {0};
       for (size_t index = 0; index < nets; index++) {
         net4 P;
         struct ray rays[RAYS];
         net_class_at(k)->make(&random, P, rays);
-        if (exchanged) exchange(P);
-        good &= count_rays(P, RAYS, rays, "tolerance 1e-10", WAYS, counts);
+        if (exchanged) transpose(P);
+        count_rays(P, RAYS, rays, "tolerance 1e-10", WAYS, counts);
       }
       print_counts(net_class_at(k)->name, exchanged, counts);
       /* Along the axis of a height field r has degree 12, and the roots of its other coefficients' roundings come

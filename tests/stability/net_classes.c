@@ -4,13 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "accuracy/generate.h"
 #include "geometry/patch.h"
-
-static void ray_between(const double from[3], const double to[3], struct ray *out)
-{
-  *out = (struct ray){.t_max = INFINITY};
-  for (int k = 0; k < 3; k++) out->origin[k] = from[k], out->direction[k] = to[k] - from[k];
-}
 
 static void aim(struct random *random, net4 P, struct ray *out)
 {

@@ -7,13 +7,14 @@
 
 #include "cmocka_test.h"
 #include "effort.h"
-#include "intersect/intersect.h"
 #include "intersect/method.h"
+#include "method_of.h"
+#include "property/world.h"
 #include "random.h"
 #include "reference/search.h"
 #include "teapot.h"
 
-enum { PAIRS = 100000, LEAST_PAIRS = 20000 };
+enum { PAIRS = 100000, LEAST_PAIRS = 8000 };
 
 /* Both parameters of a found root must be this near to the true one, absolute. */
 #define FOUND_WITHIN 1e-11
@@ -24,45 +25,13 @@ enum { PAIRS = 100000, LEAST_PAIRS = 20000 };
 /* Relative error of T with polish. */
 #define POLISHED_WITHIN 1e-9
 
-/* One patch as a scene, its intersector and a tracer. */
-struct target {
-  struct scene scene;
-  struct scene_patch patch;
-  struct method solver;
-  struct intersector *intersector;
-  struct tracer *tracer;
-};
+static const char plain_way[] = "aberth { polish off split 1 }", polished_way[] = "aberth { split 1 }",
+                  paper_way[] = "aberth { form paper tolerance 1e-10 }";
 
-static struct method aberth(bool polish, bool paper)
+static void open_patch(struct world *world, double P[4][4][3], const char *way)
 {
-  struct method options;
-  method_default(solver_find("aberth", 6), &options);
-  options.polish = polish;
-  options.split = 1;
-  if (paper) {
-    options.basis = BASIS_POWER;
-    options.resultant = RESULTANT_SYLVESTER;
-    options.back_substitution = BACK_SUBSTITUTION_EUCLID;
-    options.roots.tolerance = 1e-10;
-    solver_options_form(&options.roots, false);
-  }
-  return options;
-}
-
-static void target_create(struct target *target, const double P[4][4][3], struct method options)
-{
-  *target = (struct target){.solver = options};
-  memcpy(target->patch.P, P, sizeof target->patch.P);
-  target->scene = (struct scene){
-    .patches = &target->patch, .patch_count = 1, .solvers = &target->solver, .solver_count = 1};
-  assert_int_equal(intersector_create(&target->scene, &target->intersector), STATUS_OK);
-  assert_int_equal(tracer_create(target->intersector, &target->tracer), STATUS_OK);
-}
-
-static void target_destroy(struct target *target)
-{
-  tracer_destroy(target->tracer);
-  intersector_destroy(target->intersector);
+  const struct method method = method_of(way);
+  world_open(world, (world_net *)P, 1, &method);
 }
 
 /* The nets of the ray's planes for a net x in the patch's frame. */
@@ -81,7 +50,7 @@ static void ray_planes(const struct model_patch *patch, const struct ray *ray, c
 }
 
 /* The roots that the patch's own method finds on the whole patch. */
-static void find_roots(struct target *target, const struct ray *ray, struct method_roots *out)
+static void find_roots(struct world *target, const struct ray *ray, struct method_roots *out)
 {
   const struct model *model = target->tracer->model;
   const struct leaf *leaf = &model->leaves[0];
@@ -128,10 +97,9 @@ TEST(roots_of_the_teapot)
   size_t roots = 0, undecided = 0, found = 0, found_by_paper = 0, hits = 0, right = 0;
   teapot_read(teapot);
   for (int patch = 0; patch < TEAPOT_PATCHES; patch++) {
-    struct target plain, paper, polished;
-    target_create(&plain, teapot[patch], aberth(false, false));
-    target_create(&paper, teapot[patch], aberth(false, true));
-    target_create(&polished, teapot[patch], aberth(true, false));
+    struct world plain, paper, polished;
+    open_patch(&plain, teapot[patch], plain_way), open_patch(&paper, teapot[patch], paper_way);
+    open_patch(&polished, teapot[patch], polished_way);
     for (size_t pair = (size_t)patch; pair < pairs; pair += TEAPOT_PATCHES) {
       struct ray ray;
       random_ray(&random, teapot[patch], &ray);
@@ -162,9 +130,7 @@ TEST(roots_of_the_teapot)
         right += hit.patch != HIT_NONE && hit.certainty == CERTAINTY_CERTAIN ? (size_t)-1 : 0; /* invented */
       }
     }
-    target_destroy(&plain);
-    target_destroy(&paper);
-    target_destroy(&polished);
+    world_close(&plain), world_close(&paper), world_close(&polished);
   }
   print_message("%zu pairs (%zu undecided), %zu roots; to 1e-11: aberth unpolished %.5f %%, the paper's form %.3f %%; "
                 "polished: %zu of %zu nearest hits\n",
