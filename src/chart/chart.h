@@ -7,18 +7,17 @@
 
 #include "base/listener.h"
 #include "base/text_buffer.h"
+#include "page/povray.h"
 #include "scene/scene.h"
 
 struct chart_request {
   const char *path;         /* of the scene */
   const char *folder;       /* receives the results; exists */
   const char *command_line; /* shown on the page */
-  const char *program;      /* POV-Ray */
   size_t width, height;     /* pixels of the picture that the rays belong to */
   size_t rays, rounds;      /* about how many camera rays; how often each is measured. 0: the usual number, with or
                                without `quick` */
-  double timeout;           /* seconds that a run of POV-Ray may take */
-  size_t memory;            /* bytes that it may take */
+  struct povray povray;     /* without the listener and the size */
   bool quick, peers;        /* fewer points; with Embree and POV-Ray */
   struct method *solvers;   /* instead of the usual points: these, besides the default; solver_count of them */
   size_t solver_count;

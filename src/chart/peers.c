@@ -11,7 +11,6 @@
 #include "chart/embree_mesh.h"
 #include "chart/rivals.h"
 #include "chart/work.h"
-#include "page/povray.h"
 #include "geometry/vector.h"
 
 /* ---- rivals ---- */
@@ -210,15 +209,14 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
 
 static enum status ask_povray(struct chart *chart)
 {
-  struct povray povray = {.listener = chart->listener,
-                          .program = chart->request->program,
-                          .width = chart->request->width,
-                          .height = chart->request->height,
-                          .timeout = chart->request->timeout,
-                          .memory = chart->request->memory,
-                          .optional = true};
+  struct povray povray = chart->request->povray;
+  povray.listener = chart->listener;
+  povray.width = chart->request->width;
+  povray.height = chart->request->height;
+  povray.optional = true;
   enum status status = povray_open(&povray);
-  if (povray.missing) chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->request->program);
+  if (povray.missing)
+    chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->request->povray.program);
   for (int type = chart->request->quick ? 1 : 0; type <= 1; type++)
     for (int steps = 1; steps <= 7 && status == STATUS_OK; steps += chart->request->quick ? 3 : 1)
       status = ask_povray_once(chart, &povray, type, steps);

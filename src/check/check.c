@@ -69,17 +69,10 @@ enum status check_scene(const struct check_request *request, struct scene *scene
   *out_text = (struct text_buffer){0};
   struct check *check = calloc(1, sizeof *check);
   if (check == NULL) return listener_out_of_memory(listener);
-  *check = (struct check){.request = request,
-                          .listener = listener,
-                          .scene = scene,
-                          .povray = {.listener = listener,
-                                     .program = request->program,
-                                     .options = request->options,
-                                     .option_count = request->option_count,
-                                     .width = request->width,
-                                     .height = request->height,
-                                     .timeout = request->timeout,
-                                     .memory = request->memory}};
+  *check = (struct check){.request = request, .listener = listener, .scene = scene, .povray = request->povray};
+  check->povray.listener = listener;
+  check->povray.width = request->width;
+  check->povray.height = request->height;
   enum status status = measure(check);
   if (status == STATUS_OK) status = judge(check, out_text);
   povray_close(&check->povray);

@@ -15,6 +15,7 @@
 #include "base/listener.h"
 #include "base/text_buffer.h"
 #include "image/compare.h"
+#include "page/povray.h"
 #include "scene/scene.h"
 
 enum { CHECK_MAX_STEPS = 8 }; /* 65536 pieces per patch: more does not fit into memory for common scenes */
@@ -24,11 +25,7 @@ struct check_request {
   const char *folder;       /* receives the results; must exist */
   const char *command_line; /* shown on the page */
   size_t width, height;
-  const char *program;        /* of POV-Ray */
-  const char *const *options; /* passed on to it */
-  size_t option_count;
-  double timeout;             /* seconds that each run may take */
-  size_t memory;              /* bytes that each run may take */
+  struct povray povray;       /* without the listener and the size */
   const char *dumped;         /* why the first row is of the dump, too; NULL: it is of the file, read again */
   const char *const *folders; /* searched for the files that it includes; those of language_settings */
   size_t steps;               /* the last n; 0: only as written */

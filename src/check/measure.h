@@ -6,7 +6,6 @@
 
 #include "check/check.h"
 #include "intersect/intersect.h"
-#include "page/povray.h"
 
 enum { CHECK_CODES = 3 }; /* the limits 1, 4 and 16 of 255 */
 

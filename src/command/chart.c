@@ -8,7 +8,6 @@
 #include "command/output.h"
 #include "command/scene_file.h"
 #include "language/language.h"
-#include "page/povray.h"
 
 enum { MAX_RAYS = 1 << 22 };
 enum { OPTION_SOLVER = 1 };
@@ -33,8 +32,9 @@ static const struct command_option OPTIONS[] = {
                   "number of measurements of each; default 5, 3 with --quick", "N"),
   COMMAND_TRUE("quick", 0, chart.quick, "fewer tolerances, rays and peers: under a minute"),
   COMMAND_TRUE("no-peers", 0, no_peers, "leave out Embree and POV-Ray"),
-  COMMAND_TEXT("povray", 0, chart.program, "POV-Ray's program; default povray", "FILE"),
-  COMMAND_POSITIVE("timeout", chart.timeout, "number of seconds", "limit of each run of POV-Ray; default 300", "S"),
+  COMMAND_TEXT("povray", 0, chart.povray.program, "POV-Ray's program; default povray", "FILE"),
+  COMMAND_POSITIVE("timeout", chart.povray.timeout, "number of seconds", "limit of each run of POV-Ray; default 300",
+                   "S"),
   COMMAND_TRUE("quiet", 'q', scene.quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
@@ -61,7 +61,7 @@ static enum status work(void *context, const struct output_job *job)
 
 static const struct request DEFAULTS = {
   .scene = SCENE_REQUEST_DEFAULT,
-  .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
+  .chart.povray = {.program = "povray", .timeout = POVRAY_TIMEOUT},
   .folder = {.suffix = "-chart", .files = chart_files, .file_count = CHART_FILES}};
 
 static enum status run(const struct command *command, void *context, const struct command_line *line)
@@ -72,7 +72,7 @@ static enum status run(const struct command *command, void *context, const struc
   chart->command_line = line->text;
   chart->width = request->scene.width;
   chart->height = request->scene.height;
-  chart->memory = scene_request_memory(&request->scene);
+  chart->povray.memory = scene_request_memory(&request->scene);
   chart->peers = !request->no_peers;
   return output_folder_fill(command, &request->folder, &request->scene, work, request);
 }

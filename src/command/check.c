@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 
 #include "base/number.h"
-#include "page/povray.h"
 #include "command/command.h"
 #include "command/output.h"
 #include "command/scene_file.h"
@@ -36,10 +35,11 @@ static const struct command_option OPTIONS[] = {
                   "POV-Ray's u_steps and v_steps go from 1 to N; 0: none; default 6", "N"),
   COMMAND_INTEGER("grid", check.grid, 0, MAX_GRID, "grid",
                   "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
-  COMMAND_TEXT("povray", 0, check.program, "POV-Ray's program; default povray", "FILE"),
+  COMMAND_TEXT("povray", 0, check.povray.program, "POV-Ray's program; default povray", "FILE"),
   COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to POV-Ray; may be repeated", "OPT"),
   COMMAND_TRUE("dump", 0, dump, "POV-Ray reads the dump for the first picture, too"),
-  COMMAND_POSITIVE("timeout", check.timeout, "number of seconds", "limit of each run of POV-Ray; default 300", "S"),
+  COMMAND_POSITIVE("timeout", check.povray.timeout, "number of seconds", "limit of each run of POV-Ray; default 300",
+                   "S"),
   COMMAND_NUMBER("fail", check.fail.each, "a pixel fails beyond this difference; default 4/255", "E"),
   COMMAND_NUMBER("failpercent", check.fail.percent, "percent of the pixels that may fail; default 0.3", "P"),
   COMMAND_NUMBER("allowfailures", check.fail.allowed_pixels, "or number of pixels that may fail; default 0", "N"),
@@ -52,10 +52,10 @@ static const struct command_option OPTIONS[] = {
 
 static enum status take_povray_option(const struct command *command, struct request *request, const char *text)
 {
-  const char **options = realloc(request->options, (request->check.option_count + 1) * sizeof *options);
+  const char **options = realloc(request->options, (request->check.povray.option_count + 1) * sizeof *options);
   if (options == NULL) return command_out_of_memory(command);
-  options[request->check.option_count++] = text;
-  request->check.options = request->options = options;
+  options[request->check.povray.option_count++] = text;
+  request->check.povray.options = request->options = options;
   return STATUS_OK;
 }
 
@@ -124,8 +124,7 @@ static enum status work(void *context, const struct output_job *job)
 
 static const struct request DEFAULTS = {
   .scene = SCENE_REQUEST_DEFAULT,
-  .check = {.program = "povray",
-            .timeout = POVRAY_TIMEOUT,
+  .check = {.povray = {.program = "povray", .timeout = POVRAY_TIMEOUT},
             .steps = 6,
             .grid = 8,
             .fail = {.each = 4.0 / 255, .percent = 0.3, .any = INFINITY},
@@ -141,7 +140,7 @@ static enum status run(const struct command *command, void *context, const struc
   check->command_line = line->text;
   check->width = request->scene.width;
   check->height = request->scene.height;
-  check->memory = scene_request_memory(&request->scene);
+  check->povray.memory = scene_request_memory(&request->scene);
   check->dumped = dumped_because(request);
   check->folders = request->folders = scene_request_folders(&request->scene);
   if (check->folders == NULL) return command_out_of_memory(command);

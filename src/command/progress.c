@@ -6,8 +6,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-
 /* Seconds between two reports. */
 static const double TERMINAL_PERIOD = 0.2;
 static const double LINE_PERIOD = 5;
@@ -33,14 +31,26 @@ static void write_rate(double rate, char *out, size_t size)
   else snprintf(out, size, "%.1f k rays/s", rate / 1e3);
 }
 
-/* Prints a line that the next one overwrites. It must therefore fit the terminal's width; if space is short, the bar
- * shrinks first. */
-static void tell_terminal(const char *line, size_t length, double done)
+static bool is_time(struct progress *state, double seconds)
+{
+  if (seconds - state->told < (state->terminal ? TERMINAL_PERIOD : LINE_PERIOD)) return false;
+  state->told = seconds;
+  return true;
+}
+
+/* Prints a line; on a terminal one that the next one overwrites. It must therefore fit the terminal's width; if space is
+ * short, the bar shrinks first. */
+static void put_line(const struct progress *state, const char *line, double done)
 {
   struct winsize window;
   const size_t columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
   const size_t around = strlen("[]  "); /* the bar's brackets, a blank, and the last column, which may wrap the line */
+  const size_t length = strlen(line);
   char bar[BAR_WIDTH + 4] = "";
+  if (!state->terminal) {
+    fprintf(stderr, "%s\n", line);
+    return;
+  }
   if (columns >= length + around + LEAST_BAR) {
     const size_t room = columns - length - around, width = room < BAR_WIDTH ? room : BAR_WIDTH;
     const size_t full = (size_t)(done * (double)width);
@@ -53,30 +63,22 @@ static void tell_terminal(const char *line, size_t length, double done)
   fflush(stderr);
 }
 
-void progress_tell(struct progress *state, const struct render_progress *progress)
+void progress_tell(struct progress *state, double seconds, double done, uint64_t rays)
 {
-  if (progress->seconds - state->told < (state->terminal ? TERMINAL_PERIOD : LINE_PERIOD)) return;
-  state->told = progress->seconds;
-  const double done = (double)progress->pixels / (double)progress->pixels_total;
-  char left[32] = "?", rate[32];
-  if (done > 0) write_duration(progress->seconds * (1 - done) / done, left, sizeof left);
-  write_rate((double)progress->rays / progress->seconds, rate, sizeof rate);
-  char line[LINE_SIZE];
-  const int length = snprintf(line, sizeof line, "%.0f %%, %s, %s left", 100 * done, rate, left);
-  if (state->terminal) tell_terminal(line, (size_t)length, done);
-  else fprintf(stderr, "%s\n", line);
+  char left[32] = "?", rate[32], line[LINE_SIZE];
+  if (!is_time(state, seconds)) return;
+  if (done > 0) write_duration(seconds * (1 - done) / done, left, sizeof left);
+  write_rate((double)rays / seconds, rate, sizeof rate);
+  snprintf(line, sizeof line, "%.0f %%, %s, %s left", 100 * done, rate, left);
+  put_line(state, line, done);
 }
 
-void progress_write(struct progress *state, double part)
+void progress_write(struct progress *state, double seconds, double done)
 {
-  const double now = clock_seconds(CLOCK_MONOTONIC);
   char line[LINE_SIZE];
-  if (state->began == 0) state->began = now;
-  if (now - state->began - state->told < (state->terminal ? TERMINAL_PERIOD : LINE_PERIOD)) return;
-  state->told = now - state->began;
-  const int length = snprintf(line, sizeof line, "%.0f %% of the file", 100 * part);
-  if (state->terminal) tell_terminal(line, (size_t)length, part);
-  else fprintf(stderr, "%s\n", line);
+  if (!is_time(state, seconds)) return;
+  snprintf(line, sizeof line, "%.0f %% of the file", 100 * done);
+  put_line(state, line, done);
 }
 
 void progress_end(const struct progress *progress)

@@ -3,22 +3,19 @@
 #define PSCN_COMMAND_PROGRESS_H
 
 #include <stdbool.h>
-
-#include "render/render.h"
+#include <stdint.h>
 
 struct progress {
   bool terminal;
-  double began; /* clock at the start of writing */
-  double told;  /* last report, in seconds since rendering or writing began */
+  double told; /* last report, in seconds since rendering or writing began */
 };
 
 struct progress progress_start(void);
 
-/* Reports the progress of the rendering if enough time has passed. */
-void progress_tell(struct progress *state, const struct render_progress *progress);
-
-/* The same for writing the file: `part` of it is done, 0 to 1. */
-void progress_write(struct progress *state, double part);
+/* Report how much is done, 0 to 1, of the rendering or of writing the file, so many seconds after that began, if enough
+ * time has passed since the last report. */
+void progress_tell(struct progress *state, double seconds, double done, uint64_t rays);
+void progress_write(struct progress *state, double seconds, double done);
 
 /* Removes the bar. */
 void progress_end(const struct progress *progress);

@@ -39,11 +39,12 @@ struct rendering {
   struct report *report;
   struct piece piece;
   struct progress progress;
-  double kept;   /* when the part was last kept, in seconds since the rendering began */
-  bool has_part; /* there is a file of what is done */
-  bool has_old;  /* an earlier run's file, from which we do not continue */
-  size_t left;   /* pixels of this picture in the earlier run's file, from which we do not continue */
-  bool warned;   /* of a scene of which nothing will be visible */
+  struct seconds writing; /* when that began */
+  double kept;            /* when the part was last kept, in seconds since the rendering began */
+  bool has_part;          /* there is a file of what is done */
+  bool has_old;           /* an earlier run's file, from which we do not continue */
+  size_t left;            /* pixels of this picture in the earlier run's file, from which we do not continue */
+  bool warned;            /* of a scene of which nothing will be visible */
   /* for the picture, or if that is a PNG for the part, once the rendering takes LOADS_AFTER */
   struct image_loading *loading;
   bool loads_part;
@@ -84,7 +85,9 @@ static void look(void *context, const struct render_progress *progress)
 {
   struct rendering *rendering = context;
   const struct rendering_request *request = rendering->request;
-  if (!request->scene->quiet) progress_tell(&rendering->progress, progress);
+  if (!request->scene->quiet)
+    progress_tell(&rendering->progress, progress->seconds, (double)progress->pixels / (double)progress->pixels_total,
+                  progress->rays);
   if (request->format == IMAGE_PNG && request->part != NULL && !rendering->loads_part &&
       progress->seconds > LOADS_AFTER) {
     rendering->loads_part = true;
@@ -305,7 +308,8 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
 static bool go_on_writing(void *context, double part)
 {
   struct rendering *rendering = context;
-  if (!rendering->request->scene->quiet) progress_write(&rendering->progress, part);
+  if (!rendering->request->scene->quiet)
+    progress_write(&rendering->progress, seconds_since(rendering->writing).wall, part);
   return atomic_load(&interrupt_signal) == 0;
 }
 
@@ -329,7 +333,7 @@ static enum status write_results(struct rendering *rendering)
 {
   const struct command *command = rendering->command;
   const struct rendering_request *request = rendering->request;
-  const struct seconds start = seconds_now();
+  rendering->writing = seconds_now();
   unsigned char *bytes;
   char *statistics = NULL;
   size_t size;
@@ -339,7 +343,7 @@ static enum status write_results(struct rendering *rendering)
     if (status != STATUS_INTERRUPTED) command_error(command, "cannot create '%s': %s", request->output, message);
     return status;
   }
-  rendering->report->write = seconds_since(start);
+  rendering->report->write = seconds_since(rendering->writing);
   if (request->stats != NULL) status = report_text(command, report_statistics(rendering->report), &statistics);
   const size_t length = statistics == NULL ? 0 : strlen(statistics);
   const struct atomic_file files[] = {{request->output, bytes, size},

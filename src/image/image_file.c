@@ -16,7 +16,6 @@
 #include "base/input.h"
 #include "base/module.h"
 #include "image/image_module.h"
-#include "image/png_file.h"
 
 struct format_traits {
   const char *suffix;

@@ -1,4 +1,4 @@
-/* The interface of the module that reads picture files and writes EXR.
+/* What image_file.c has others do: a module that reads picture files and writes EXR, and png_file.c.
  *
  * OpenImageIO brings along some 250 shared libraries, which would cost every start of a program an eighth of a second
  * and 130 MB. The code that uses it is therefore a module of its own, IMAGE_MODULE_FILE, loaded for the first such
@@ -24,5 +24,10 @@ struct image_module {
 };
 
 extern const struct image_module image_module __attribute__((visibility("default")));
+
+/* image_encode for PNG: the picture has one to four channels, the encoding 8 or 16 bits. By libpng, on which
+ * OpenImageIO's writer stands too. */
+enum status png_file_encode(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
+                            size_t *out_size, char *message) STATUS_MUST_CHECK;
 
 #endif

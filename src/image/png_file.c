@@ -1,5 +1,5 @@
 /* PNG, by libpng. */
-#include "image/png_file.h"
+#include "image/image_module.h"
 
 #include <png.h>
 #include <stdio.h>

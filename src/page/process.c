@@ -1,7 +1,5 @@
 /* A child process: started, confined, watched, reaped. Landlock: Linux's Documentation/userspace-api/landlock.rst. */
-#if defined(__linux__)
 #define _GNU_SOURCE /* for syscall */
-#endif
 #include "page/process.h"
 
 #include <dirent.h>
@@ -11,17 +9,15 @@
 #include <signal.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#if defined(__linux__)
-#include <sys/prctl.h>
-#include <sys/syscall.h>
 #if __has_include(<linux/landlock.h>)
 #include <linux/landlock.h>
-#endif
 #endif
 
 enum {
@@ -97,13 +93,9 @@ static bool limit_resources(size_t memory)
 
 static bool restrict_program(const struct process_request *request, pid_t parent)
 {
-#if defined(__linux__)
-  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) /* the parent may have ended before that call */
-    return false;
-#else
-  (void)parent;
-#endif
-  return limit_resources(request->memory) && (!request->confined || !process_can_confine() || confine());
+  /* the parent may have ended before that call */
+  return prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent && limit_resources(request->memory) &&
+         (!request->confined || !process_can_confine() || confine());
 }
 
 /* In the child: becomes the program, or sends the reason why not through the pipe, which exec closes. */

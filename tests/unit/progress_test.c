@@ -24,10 +24,18 @@ int __wrap_ioctl(int descriptor, unsigned long request, ...)
   return 0;
 }
 
-static struct render_progress rendered = {.pixels_total = 1000};
+static struct {
+  size_t pixels; /* of 1000 */
+  uint64_t rays;
+  double seconds;
+} rendered;
 
-static void tell_rendered(struct progress *progress) { progress_tell(progress, &rendered); }
-static void tell_written(struct progress *progress) { progress_write(progress, 0.25); }
+static void tell_rendered(struct progress *progress)
+{
+  progress_tell(progress, rendered.seconds, (double)rendered.pixels / 1000, rendered.rays);
+}
+
+static void tell_written(struct progress *progress) { progress_write(progress, 10, 0.25); }
 
 /* Expects this text on standard error, which is a file meanwhile. */
 static void expect(void (*tell)(struct progress *progress), struct progress progress, const char *line)
@@ -91,11 +99,10 @@ TEST(test_narrow_terminals)
   columns = 0;
 }
 
-/* Writing began long ago, or just now. */
 TEST(test_writing)
 {
-  expect(tell_written, (struct progress){.told = 0}, "");
-  expect(tell_written, (struct progress){.began = -10}, "25 % of the file\n");
-  expect(tell_written, (struct progress){.began = -10, .terminal = true},
+  expect(tell_written, (struct progress){.told = 9}, "");
+  expect(tell_written, (struct progress){.told = 5}, "25 % of the file\n");
+  expect(tell_written, (struct progress){.terminal = true},
          "\r[#######.......................] 25 % of the file\033[K\r\033[K");
 }
