@@ -59,20 +59,6 @@ void text_buffer_format(struct text_buffer *buffer, const char *format, ...)
   va_end(again);
 }
 
-void text_buffer_add_runs(struct text_buffer *buffer, size_t first, size_t end,
-                          bool has(const void *context, size_t number), const void *context)
-{
-  const char *comma = "";
-  for (size_t k = first; k < end; k++) {
-    const size_t begin = k;
-    while (k < end && has(context, k)) k++;
-    if (k == begin) continue;
-    text_buffer_format(buffer, "%s%zu", comma, begin);
-    if (k - 1 > begin) text_buffer_format(buffer, "-%zu", k - 1);
-    comma = ",";
-  }
-}
-
 void text_buffer_add_printable(struct text_buffer *buffer, const char *text, size_t length)
 {
   for (size_t at = 0, size; at < length; at += size) {

@@ -23,10 +23,6 @@ void text_buffer_add(struct text_buffer *buffer, const void *bytes, size_t lengt
 void text_buffer_add_text(struct text_buffer *buffer, const char *text);
 void text_buffer_format(struct text_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Adds the numbers from `first` up to but not `end` for which `has` is true, as "0-17,19". */
-void text_buffer_add_runs(struct text_buffer *buffer, size_t first, size_t end,
-                          bool has(const void *context, size_t number), const void *context);
-
 /* Adds foreign text that no terminal obeys: control characters except the newline, and malformed UTF-8, as \xNN. */
 void text_buffer_add_printable(struct text_buffer *buffer, const char *text, size_t length);
 

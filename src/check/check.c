@@ -28,15 +28,6 @@ static enum status measure_series(struct check *check)
   return status;
 }
 
-static enum status measure_as_written(struct check *check)
-{
-  listener_tell(check->listener, TOLD_PROGRESS, "POV-Ray: as written");
-  const enum status status = measure_row(check, 0);
-  if (status == STATUS_OK && check->warnings.length > 0)
-    listener_tell(check->listener, TOLD_PROGRESS, "%s", check->warnings.text);
-  return status;
-}
-
 static enum status measure(struct check *check)
 {
   enum status status = povray_open(&check->povray);
@@ -44,7 +35,10 @@ static enum status measure(struct check *check)
     listener_tell(check->listener, TOLD_PROGRESS, "pscn");
     status = check_measure_ours(check);
   }
-  if (status == STATUS_OK) status = measure_as_written(check);
+  if (status == STATUS_OK) {
+    listener_tell(check->listener, TOLD_PROGRESS, "POV-Ray: as written");
+    status = measure_row(check, 0);
+  }
   return status == STATUS_OK ? measure_series(check) : status;
 }
 
@@ -79,7 +73,6 @@ enum status check_scene(const struct check_request *request, struct scene *scene
   for (size_t k = 0; k < check->row_count; k++) image_destroy(&check->row[k].picture.image);
   for (size_t k = 0; k < CHECK_FILES; k++) text_buffer_free(&check->file[k]);
   check_ours_free(&check->ours);
-  text_buffer_free(&check->warnings);
   free(check);
   return status;
 }

@@ -233,9 +233,9 @@ enum status check_measure_row(struct check *check, size_t steps)
   enum status status = steps == 0 ? render_first(check, &row->picture)
                                   : povray_render(&check->povray, check->scene, &row->picture);
   if (status != STATUS_OK) return status;
-  if (check->row_count++ == 0) povray_warnings(&check->povray, &check->warnings);
+  check->row_count++;
   unsigned char *mask = calloc(request->width * request->height, 1); /* [height][width]: POV-Ray hits */
-  status = mask == NULL || check->warnings.failed ? listener_out_of_memory(check->listener) : ask(check, mask, row);
+  status = mask == NULL ? listener_out_of_memory(check->listener) : ask(check, mask, row);
   if (status == STATUS_OK) compare_row(check, mask, row);
   free(mask);
   return status;

@@ -59,7 +59,6 @@ struct check {
   struct check_row row[CHECK_MAX_STEPS + 1];
   size_t row_count;
   char dumped[POVRAY_WORD_SIZE + 64];   /* why the first row is of the dump; "": it is of the file as written */
-  struct text_buffer warnings;          /* POV-Ray's warnings on the scene as written */
   struct text_buffer file[CHECK_FILES]; /* what is written; empty: the file must not exist */
 };
 

@@ -114,12 +114,12 @@ static json_t *page_value(const struct check *check, const char *verdict)
   }
   json_t *root = json_join(
     json_join(check_value(check), page_of_head(request->command_line)),
-    json_pack("{s:o,s:s,s:o,s:o,s:o,s:f,s:f,s:o,s:o,s:o,s:s?,s:b,s:b}", "name", page_of_file(request->path), "verdict",
+    json_pack("{s:o,s:s,s:o,s:o,s:o,s:f,s:f,s:o,s:o,s:o,s:b,s:b}", "name", page_of_file(request->path), "verdict",
               verdict, "width", json_count(request->width), "height", json_count(request->height), "grid",
               request->grid == 0 ? json_null() : json_count(request->grid), "limit", 255 * request->fail.each,
               "magnified", MAGNIFIED, "ours", page_of_png(&check->file[FILE_OURS]), "theirs",
-              page_of_png(&check->file[FILE_ROWS + 2 * last]), "last_name", name_of(check, &check->row[last]),
-              "warnings", check->warnings.text, "pixels", pixels, "converging", distances));
+              page_of_png(&check->file[FILE_ROWS + 2 * last]), "last_name", name_of(check, &check->row[last]), "pixels",
+              pixels, "converging", distances));
   for (size_t k = 0; k <= last && root != NULL; k++)
     if (!add_to_row(check, k, json_array_get(json_object_get(root, "rows"), k))) json_decref(root), root = NULL;
   return root;

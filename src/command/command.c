@@ -9,11 +9,11 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 #include "base/memory.h"
 #include "base/source.h"
+#include "base/text_buffer.h"
 #include "command/interrupt.h"
 #include "command/values.h"
 #include "language/words.h"
@@ -119,20 +119,15 @@ void command_warning(const struct command *command, const char *format, ...)
   va_end(arguments);
 }
 
-static enum status try_help(const struct command *command)
-{
-  if (command == NULL) fputs("Try 'pscn help'.\n", stderr);
-  else fprintf(stderr, "Try 'pscn help %s'.\n", command->name);
-  return STATUS_USAGE;
-}
-
 enum status command_usage(const struct command *command, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
   print_told(command, "error", format, arguments);
   va_end(arguments);
-  return try_help(command);
+  if (command == NULL) fputs("Try 'pscn help'.\n", stderr);
+  else fprintf(stderr, "Try 'pscn help %s'.\n", command->name);
+  return STATUS_USAGE;
 }
 
 enum status command_out_of_memory(const struct command *command)
@@ -156,72 +151,20 @@ struct listener command_listener(struct command_ear *ear)
   return (struct listener){.hear = hear, .context = ear, .stop = &interrupt_signal};
 }
 
-/* Adds an argument as a shell reads it: in quotes if it has other characters than these. Returns the new end of the
- * text. */
-static char *add_argument(char *end, const char *argument)
-{
-  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  const size_t length = strlen(argument);
-  if (length > 0 && strspn(argument, plain) == length) return end + sprintf(end, " %s", argument);
-  end += sprintf(end, " '");
-  for (; *argument != '\0'; argument++) end += sprintf(end, *argument == '\'' ? "'\\''" : "%c", *argument);
-  return end + sprintf(end, "'");
-}
-
-/* The command line, quoted for a shell; NULL if memory is short. The caller frees it. */
+/* The command line as a shell reads it, in quotes where there are other characters than these; NULL if memory is short.
+ * The caller frees it. */
 static char *command_line_text(int argc, const char **argv)
 {
-  size_t size = sizeof "pscn";
-  for (int k = 0; k < argc; k++) size += 4 * strlen(argv[k]) + 3; /* a blank and two quotes */
-  char *text = malloc(size), *end = text;
-  if (text == NULL) return NULL;
-  end += sprintf(end, "pscn");
-  for (int k = 0; k < argc; k++) end = add_argument(end, argv[k]);
-  return text;
-}
-
-/* ---- POV-Ray's options ---- */
-
-/* Each begins with + or -, its letters may be of either case, and its value follows them. Where one begins as another
- * does, the longer stands first. */
-static const struct {
-  const char *letters, *here;
-} POVRAY[] = {
-  {"KFI", "--frames A-B renders the frames A to B"},
-  {"KFF", "--frames A-B renders the frames A to B"},
-  {"SC", "--crop X,Y,W,H renders a part"},
-  {"SR", "--crop X,Y,W,H renders a part"},
-  {"EC", "--crop X,Y,W,H renders a part"},
-  {"ER", "--crop X,Y,W,H renders a part"},
-  {"WT", "--threads N sets the number of threads"},
-  {"FN", "the suffix of -o FILE sets the format, .png or .exr, --bits the bits of a value"},
-  {"W", "--size WxH sets width and height"},
-  {"H", "--size WxH sets width and height"},
-  {"I", "the scene's name stands alone"},
-  {"O", "-o FILE names the picture"},
-  {"A", "--samples N takes N x N rays a pixel"},
-  {"R", "--samples N takes N x N rays a pixel"},
-  {"K", "--clock X sets the clock"},
-  {"L", "-I DIR names a folder of included files"},
-  {"C", "--resume continues where an earlier run ended"},
-  {"F", "the suffix of -o FILE sets the format, .png or .exr, --bits the bits of a value"},
-  {"D", "pictures are not shown during rendering: leave it out"},
-  {"P", "pictures are not shown during rendering: leave it out"},
-  {"V", "-q prints nothing unless something is wrong"},
-  {"G", "-q prints nothing unless something is wrong"},
-  {"Q", "a picture has one quality: leave it out"},
-  {"J", "samples lie on a regular grid: leave it out"},
-};
-
-/* What to write instead of a word that is an option of POV-Ray's; NULL if it is none, or the command renders nothing. */
-static const char *povray_equal(const struct command *command, const char *word)
-{
-  if (command != &command_render || (word[0] != '+' && word[0] != '-')) return NULL;
-  for (const struct command_option *option = command->options; word[0] == '-' && option->name != NULL; option++)
-    if (option->letter != '\0' && option->letter == word[1]) return NULL;
-  for (size_t k = 0; k < sizeof POVRAY / sizeof *POVRAY; k++)
-    if (strncasecmp(word + 1, POVRAY[k].letters, strlen(POVRAY[k].letters)) == 0) return POVRAY[k].here;
-  return NULL;
+  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  struct text_buffer text = {0};
+  text_buffer_add_text(&text, "pscn");
+  for (int k = 0; k < argc; k++) {
+    const bool quoted = argv[k][0] == '\0' || argv[k][strspn(argv[k], plain)] != '\0';
+    text_buffer_add_text(&text, quoted ? " '" : " ");
+    for (const char *c = argv[k]; *c != '\0'; c++) text_buffer_format(&text, *c == '\'' ? "'\\''" : "%c", *c);
+    if (quoted) text_buffer_add_text(&text, "'");
+  }
+  return text_buffer_take(&text);
 }
 
 /* ---- command lines ----
@@ -265,6 +208,8 @@ static void unknown_option(const struct command *command, const char *word, cons
     guess_consider(&guess, option->name, strlen(option->name));
   if (begun == NULL && guess.best == NULL && strchr("0123456789.", word[1]) != NULL)
     command_usage(command, "option '%s': unknown option; numbers are read from files or standard input", word);
+  else if (command == &command_render && (word[0] == '+' || isupper((unsigned char)word[1])))
+    command_usage(command, "option '%s': unknown option; POV-Ray's options have other names here", word);
   else if (begun == NULL && guess.best == NULL) command_usage(command, "option '%s': unknown option", word);
   else
     command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length, word,
@@ -321,19 +266,14 @@ static enum status read_line(const struct command *command, int argc, const char
 {
   struct getopt_tables tables;
   make_tables(command, &tables);
-  const char *foreign = NULL; /* the last option of POV-Ray's */
   out->positional = argv;
   optind = 0; /* getopt_long starts anew */
   for (int at = 1, found;; at = optind) {
     found = getopt_long(argc, (char *const *)argv, tables.letters, tables.names, NULL);
     if (found == -1) break;
-    const char *instead = found == '?' || (found == OPERAND && access(optarg, F_OK) != 0)
-                            ? povray_equal(command, argv[at])
-                            : NULL;
-    if (instead != NULL) {
-      if (argv[at] != foreign) command_error(command, "option '%s' is POV-Ray's; here %s", argv[at], instead);
-      foreign = argv[at];
-      continue;
+    if (found == OPERAND && optarg[0] == '+' && access(optarg, F_OK) != 0) {
+      unknown_option(command, optarg, NULL);
+      return STATUS_USAGE;
     }
     if (found == OPERAND) {
       argv[out->positional_count++] = optarg; /* after those already read */
@@ -353,7 +293,6 @@ static enum status read_line(const struct command *command, int argc, const char
   }
   while (optind < argc) /* after "--" */
     argv[out->positional_count++] = argv[optind++];
-  if (foreign != NULL) return try_help(command);
   if (out->positional_count < command->operands)
     return command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
   const size_t most = command->operands + (strchr(command->arguments, '[') != NULL);
@@ -378,7 +317,7 @@ enum status command_run(const struct command *command, int argc, const char **ar
     (void)command_out_of_memory(command);
   }
   free(request);
-  free(text);
+  memory_free(text);
   return status;
 }
 

@@ -128,7 +128,7 @@ static enum status create_picture(struct merge *merge)
   return status == STATUS_OK ? status : command_out_of_memory(merge->command);
 }
 
-/* The place of a piece's tile in the list of the whole picture (tile_list.h). */
+/* The place of a piece's tile in the list of the whole picture (render/tile.h). */
 static size_t place_of(const struct piece *piece, size_t tile) { return tile * piece->count + piece->number - 1; }
 
 /* Whether one of the piece's tiles is done already. */
@@ -179,9 +179,8 @@ static enum status read_files(struct merge *merge)
   return STATUS_OK;
 }
 
-static bool is_missing(const void *context, size_t number)
+static bool is_missing(const struct merge *merge, size_t number)
 {
-  const struct merge *merge = context;
   const struct tile_list *tiles = &merge->picture.tiles;
   for (size_t k = number - 1; k < tiles->count; k += merge->first->piece.count)
     if (!tile_is_done(tiles, k)) return true;
@@ -193,7 +192,12 @@ static bool is_missing(const void *context, size_t number)
 static enum status print_missing(const struct merge *merge, bool *out_any)
 {
   struct text_buffer text = {0};
-  text_buffer_add_runs(&text, 1, merge->first->piece.count + 1, is_missing, merge);
+  for (size_t k = 1, count = merge->first->piece.count; k <= count; k++) {
+    const size_t begin = k;
+    while (k <= count && is_missing(merge, k)) k++;
+    if (k > begin) text_buffer_format(&text, text.length > 0 ? ",%zu" : "%zu", begin);
+    if (k > begin + 1) text_buffer_format(&text, "-%zu", k - 1);
+  }
   *out_any = text.length > 0;
   const enum status status = text.failed ? command_out_of_memory(merge->command) : STATUS_OK;
   if (status == STATUS_OK && *out_any) {

@@ -71,30 +71,6 @@ static void show_log(const struct povray *povray, const struct text_buffer *log)
     if (*line != '\n') listener_tell(povray->listener, TOLD_DETAIL, "  povray: %.*s", (int)strcspn(line, "\n"), line);
 }
 
-static bool holds(const char *line, size_t length, const char *words)
-{
-  const size_t size = strlen(words);
-  for (; length >= size; line++, length--)
-    if (memcmp(line, words, size) == 0) return true;
-  return false;
-}
-
-/* POV-Ray breaks its messages into lines, of which all but the first begin with a blank. */
-void povray_warnings(const struct povray *povray, struct text_buffer *out)
-{
-  struct text_buffer log = read_log(povray);
-  bool within = false;
-  for (const char *line = log.text; line != NULL && *line != '\0';) {
-    const size_t part = strcspn(line, "\n");
-    const bool begins = holds(line, part, "Warning: ") || holds(line, part, "Possible Parse Error: ");
-    within = begins || (within && *line == ' ');
-    if (within && begins && out->length > 0) text_buffer_add_text(out, "\n");
-    if (within) text_buffer_add(out, line, part);
-    line += part + strspn(line + part, "\n");
-  }
-  text_buffer_free(&log);
-}
-
 /* ---- running it ---- */
 
 /* Removes the folder of the last run and makes a new one. */
@@ -184,7 +160,8 @@ enum status povray_open(struct povray *povray)
   if (scratch_create(povray->folder) != STATUS_OK)
     return listener_fail(povray->listener, STATUS_FILE, "cannot make a folder in $TMPDIR or /tmp: %s", strerror(errno));
   /* it will run in another folder */
-  if (strchr(povray->program, '/') != NULL && realpath(povray->program, povray->program_path) != NULL)
+  if (povray->program[0] != '/' && strchr(povray->program, '/') != NULL &&
+      realpath(povray->program, povray->program_path) != NULL)
     povray->program = povray->program_path;
   const enum status status = make_home(povray);
   return status == STATUS_OK ? ask_version(povray) : status;

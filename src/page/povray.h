@@ -70,7 +70,4 @@ enum status povray_ask(struct povray *povray, const struct scene *scene, size_t 
 /* The CPU seconds of tracing the scene's picture, in white and without lights, not counting parsing; NAN if unknown. */
 enum status povray_time(struct povray *povray, const struct scene *scene, double *out) STATUS_MUST_CHECK;
 
-/* Adds the warnings of the last run, one per line. */
-void povray_warnings(const struct povray *povray, struct text_buffer *out);
-
 #endif

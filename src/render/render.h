@@ -11,7 +11,6 @@
 #include "intersect/intersect.h"
 #include "render/channels.h"
 #include "render/tile.h"
-#include "render/tile_list.h"
 #include "scene/scene.h"
 
 struct render_options {

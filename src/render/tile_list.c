@@ -1,5 +1,5 @@
 /* Tiles in the order of Hilbert's curve. */
-#include "render/tile_list.h"
+#include "render/tile.h"
 
 #include <stdlib.h>
 

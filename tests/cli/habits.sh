@@ -12,11 +12,9 @@ pscn render -qhz | head -n 1
 try pscn nothing.pscn
 try pscn nosuch.pov
 try pscn folder/nosuch
-# POV-Ray's options are told their equals; its own -Q is none of them beside -q.
-for option in +W320 +H240 +Iflat.pscn +Oout.png -D +A0.3 +KFF10 -w320 +FN16 +SC0.2; do
-  try pscn $option flat.pscn
-done
-try pscn +W320 +H240 -D -KFF10 +A0.3 flat.pscn -q
+# POV-Ray's options are recognized as such.
+for option in +W320 -D; do try pscn $option flat.pscn; done
+try pscn flat.pscn +W320 +H240
 try pscn roots 1 -3 2
 try pscn compare a b -A
 try pscn -V

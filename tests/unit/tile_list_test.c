@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
-#include "render/tile_list.h"
+#include "render/tile.h"
 
 static void count_pixels(const struct rectangle *crop, const struct tile_list *list, unsigned char *seen)
 {
