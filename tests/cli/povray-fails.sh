@@ -28,7 +28,6 @@ esac
 cp $PWD/answer.png picture.png
 [ \$MODE = answers ] || sed -n 's/^Ask(.*/1e0 -/p' scene.pov >answers.txt
 [ \$MODE = fewer ] && sed -i 3d answers.txt
-[ \$MODE = warns ] && printf 'File: scene.pov Line: 1\\nParse Warning: this is\\n  old\\nand\\nPossible Parse Error: that\\n'
 [ \$MODE = timeless ] || printf 'Trace Time: 0 hours\\n  using 1 thread(s) with 0.1 CPU-seconds total\\n'
 [ \$MODE = timeless ] && printf 'Trace Time: 0 hours\\n  using 1 thread(s) with x CPU-seconds total\\n'
 exit 0
@@ -45,7 +44,7 @@ for MODE in mute fails empty other wide broken killed slow deaf writes answers f
   try timeout 60 pscn check "$scene" $small --povray ./povray --timeout $([ $MODE = writes ] && echo 30 || echo 1) -o out 2>&1 | cat -v | sed "s|$PWD|HERE|g"
   left
 done
-for MODE in talks warns timeless; do
+for MODE in talks timeless; do
   echo "$MODE:"
   try timeout 60 pscn check "$scene" ${small% --quiet} --povray ./povray -o done 2>&1 | grep 'exit\|arning\|Error\|old'
   left
