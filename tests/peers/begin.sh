@@ -5,6 +5,6 @@ for program; do
   command -v "$program" >/dev/null || { echo "skipped: $program is not installed" >&2; exit 77; }
 done
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+trap '[ $BASHPID != $$ ] || rm -rf "$folder"' EXIT # not in a child that is killed before it is a program
 export LC_ALL=C HOME=$folder
 cd "$folder"

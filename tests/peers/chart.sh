@@ -3,24 +3,20 @@
 # falls with the square of its number of sides, so from one of the quick chart's meshes to the next, 4 or 8 times as
 # fine, at least by a factor of 16; LEAST_GAIN leaves room for the few rays of a small chart. Prints which peers are
 # there.
-set -euo pipefail
-export LC_ALL=C
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh"
 LEAST_GAIN=5
-
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 512 --rounds 1 -o "$folder/chart" \
-  >/dev/null 2>"$folder/said"
+"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 512 --rounds 1 -o chart \
+  >/dev/null 2>said
 peers=()
-grep -q 'Embree is left out: there is no' "$folder/said" || peers+=(embree)
+grep -q 'Embree is left out: there is no' said || peers+=(embree)
 ! command -v povray >/dev/null || peers+=(povray)
 [ ${#peers[@]} -gt 0 ] || { echo "skipped: neither Embree's module nor povray is there" >&2; exit 77; }
 
 failed=0
 # The figure, if gnuplot drew one: the default is labelled, and pointing at a symbol shows its name.
-if [ -e "$folder/chart/chart.svg" ]; then
+if [ -e chart/chart.svg ]; then
   for text in '>default<' '<title>bernstein: [0-9.]* ns, error [0-9.e-]*</title>' '<text>7</text>' '</svg>'; do
-    grep -q "$text" "$folder/chart/chart.svg" || { echo "the figure has no $text"; failed=1; }
+    grep -q "$text" chart/chart.svg || { echo "the figure has no $text"; failed=1; }
   done
 fi
 for peer in "${peers[@]}"; do
@@ -38,6 +34,6 @@ for peer in "${peers[@]}"; do
       last = error
     }
     END { print peer ": " count + 0 " meshes, the finest within " last; exit bad || count != 3 }' \
-    "$folder/chart/chart.csv" || failed=1
+    chart/chart.csv || failed=1
 done
 exit "$failed"

@@ -2,13 +2,9 @@
 # `pscn check` against the installed POV-Ray: the files it leaves, its exit codes, messages and limits; that POV-Ray
 # comes nearer with every step; that no scene can do harm through it. check.sh answers|limits|names|harm: a part of
 # that, since POV-Ray sleeps half a second in each run.
-set -euo pipefail
-
-command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap '[ $BASHPID != $$ ] || rm -rf "$folder"' EXIT # not in a child that is killed before it is a program
-cd "$folder"
-export LC_ALL=C HOME=$folder/home TMPDIR=$folder/tmp
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
+export HOME=$folder/home TMPDIR=$folder/tmp
+any=(--failpercent 100 --failpsnr 0 --failmask 100) # no limit
 mkdir "$TMPDIR" "scenes and more"
 scene="scenes and more/one.pscn"
 failed=0
@@ -70,13 +66,11 @@ answers() {
        END { exit bad || steps != 4 || rays != 4 }' out || { fail "POV-Ray does not come nearer:"; cat out; }
   cmp -s one-check/povray.png one-check/povray-2.png || fail "the scene and the same steps give two pictures"
   # The dump gives the picture of the scene as written: without solver statements, with the includes of POV-Ray's branch.
-  expect 0 "$PSCN" check "$scene" --size 120x90 --steps 0 --grid 0 -o dumped \
-    --failpercent 100 --failpsnr 0 --failmask 100 --dump
+  expect 0 "$PSCN" check "$scene" --size 120x90 --steps 0 --grid 0 -o dumped "${any[@]}" --dump
   cmp -s dumped/povray.png one-check/povray.png || fail "the dump gives another picture"
   grep -q 'that text for the first row, too: --dump' dumped/check.html || fail "the page does not say what POV-Ray read"
   # It finds declared names and included files as the scene does.
-  given=(--declare Beside=0.125 --clock 0.25 -I "scenes and more/beside" --size 24x18 --steps 0 --grid 0
-    --failpercent 100 --failpsnr 0 --failmask 100)
+  given=(--declare Beside=0.125 --clock 0.25 -I "scenes and more/beside" --size 24x18 --steps 0 --grid 0 "${any[@]}")
   expect 0 "$PSCN" check "$scene" "${given[@]}" -o dumped --dump
   expect 0 "$PSCN" check "$scene" "${given[@]}" -o own
   cmp -s own/povray.png dumped/povray.png || fail "the scene's file is read with other numbers or files"
@@ -93,7 +87,7 @@ answers() {
 
 limits() {
   # Limits, one at a time, on a coarse picture.
-  coarse=(--size 60x45 --steps 0 --grid 0 -o limits --failpercent 100 --failpsnr 0 --failmask 100)
+  coarse=(--size 60x45 --steps 0 --grid 0 -o limits "${any[@]}")
   expect 0 "$PSCN" check "$scene" "${coarse[@]}"
   for limit in '--failpercent 0.1' '--hardfail 0.1' '--failpsnr 60' '--failmask 0.01'; do
     expect 1 "$PSCN" check "$scene" "${coarse[@]}" $limit --quiet
@@ -115,8 +109,7 @@ limits() {
   expect 3 "$PSCN" check "scenes and more/two.pscn" --size 8x6 -o refused
   grep -q 'povray: .*scene.pov.*line 12' err || { fail "the line of the scene is not told"; cat err; }
   [ ! -e refused ] || fail "a folder is left where nothing was found"
-  expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality --failpercent 100 --failpsnr 0 \
-    --failmask 100 --povray-option +Q0 --quiet
+  expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality "${any[@]}" --povray-option +Q0 --quiet
   ! cmp -s quality/povray.png limits/povray.png || fail "--povray-option changes nothing"
 }
 
@@ -158,7 +151,7 @@ harm() {
   sed -e '/#include "only/d; s/#include "colors.inc"/#include "evil.inc"/; s/Shade = Red/Shade = rgb <1, 0, 0>/' \
     "$scene" >"scenes and more/evil.pscn"
   evil() { printf '%s\n' "$@" >"scenes and more/evil.inc"; }
-  quick=(--size 8x6 --steps 0 --grid 0 -o evil --failpercent 100 --failpsnr 0 --failmask 100)
+  quick=(--size 8x6 --steps 0 --grid 0 -o evil "${any[@]}")
   mkdir -p "$HOME"
   evil "#fopen F \"$folder/written\" write" '#write (F, "x")' '#warning "title"'
   expect 0 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}"

@@ -1,13 +1,9 @@
 #!/bin/bash
 # POV-Ray's own include files, if installed, each in a scene of one patch. They are read and change nothing, or put
 # things into the scene and are refused, as docs/povray.md lists them. What pscn lacks is reported where it is used.
-set -euo pipefail
 include=/usr/share/povray-3.7/include
 [ -d $include ] || { echo "skipped: $include is not there" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-export LC_ALL=C
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh"
 failed=0
 fail() { echo "$*"; failed=1; }
 

@@ -5,13 +5,9 @@
 #
 #   kinds.sh            compares with docs/povray.md
 #   kinds.sh --print    prints the first two columns of the table
-set -euo pipefail
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh"
 here=$PSCN_SOURCE_DIR/tests/peers/kinds
 debian=/usr/share/doc/povray/examples
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-export LC_ALL=C HOME=$folder
 failed=0
 
 # outcome FILE: "read, N patches", or "refused: " and the first words of the reason.

@@ -1,10 +1,7 @@
 #!/bin/bash
 # The example that turns the teapot makes a picture a frame: the first is the scene's own, the second differs; and a
 # film if ffmpeg is installed.
-set -euo pipefail
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh"
 export PSCN
 "$PSCN_SOURCE_DIR/examples/turning_teapot.sh" 2 'the film' --size 48x36
 "$PSCN" render "$PSCN_SOURCE_DIR/scenes/teapot.pscn" --size 48x36 --quiet -o still.png
