@@ -56,6 +56,12 @@ static inline struct patch_jet patch_evaluate(double net[4][4], double u, double
   return jet;
 }
 
+// Kernels of control points, which no rival uses.
+#include "base/kernel.h"
+#undef KERNEL_BEST
+#define KERNEL_BEST(name) no_kernel
+template <class... arguments> static bool no_kernel(arguments...) { return false; }
+
 extern "C" {
 #include "base/arena.h"
 #include "base/diagnostics.h"
