@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accuracy/exact_net.h"
-#include "accuracy/exact_point.h"
-#include "accuracy/exact_quick.h"
+#include "accuracy/exact_parts.h"
 
 /* Bits of balls: enough for most roots, and for the next ones. Each step after these takes 4 times as many. */
 enum { FIRST_PRECISION = 128, SECOND_PRECISION = 768 };

@@ -2,7 +2,7 @@
  *
  * Shares nothing with the renderer and nothing with src/reference. The two plane polynomials are bicubic nets of exact
  * integers (FLINT's fmpz): the doubles of patch and ray are dyadic numbers, and halving a net keeps it so. Boxes of the
- * (u,v) square are halved, first as nets of doubles with bounds on each coefficient's error (exact_quick.h), then as
+ * (u,v) square are halved, first as nets of doubles with bounds on each coefficient's error (exact_quick.c), then as
  * integers where rounding hides the answer. A box
  * - holds no root if a combination of the two nets has coefficients of one sign;
  * - holds at most one if the combinations that aim along u and v have derivatives that dominate (exactly compared).

@@ -1,10 +1,8 @@
 /* The ball arithmetic of exact.c: Newton's and Krawczyk's method on a pair of bicubics, and on which side of its
  * patch's border a root lies. */
-#include "accuracy/exact_ball.h"
+#include "accuracy/exact_parts.h"
 
 #include <math.h>
-
-#include "accuracy/exact_quick.h"
 
 /* The start is within the box, so these are plenty. */
 enum { NEWTON_STEPS = 40 };

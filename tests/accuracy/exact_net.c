@@ -1,5 +1,5 @@
-/* See exact_net.h. */
-#include "accuracy/exact_net.h"
+/* See exact_parts.h. */
+#include "accuracy/exact_parts.h"
 
 #include <math.h>
 #include <string.h>

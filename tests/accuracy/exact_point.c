@@ -1,5 +1,5 @@
-/* Roots that are known exactly. See exact_point.h. */
-#include "accuracy/exact_point.h"
+/* Roots that are known exactly. See exact_parts.h. */
+#include "accuracy/exact_parts.h"
 
 #include <flint/fmpq.h>
 

@@ -1,5 +1,5 @@
-/* See exact_quick.h. The tests are those of exact.c, each with a margin for what the coefficients may be off by. */
-#include "accuracy/exact_quick.h"
+/* See exact_parts.h. The tests are those of exact.c, each with a margin for what the coefficients may be off by. */
+#include "accuracy/exact_parts.h"
 
 #include <math.h>
 

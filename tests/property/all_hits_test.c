@@ -91,35 +91,6 @@ static void one_by_one(struct set_up *s)
 
 TEST(they_are_the_nearest_one_by_one) { on_all_stages(SEED, SCENES, NULL, one_by_one); }
 
-enum { FOLDED_RAYS = 400 };
-
-/* The same for a patch that is folded along v = 1/2 and met twice in each point: both hits have the same u, within
- * its error. */
-TEST(folded_patches_too)
-{
-  struct random random = {SEED + 9};
-  world_net net[1];
-  int wrong = 0, twice = 0;
-  for (int n = 0; n < 16; n++) {
-    for (int k = 0; k < 3; k++) net[0][n / 4][n % 4][k] = random_between(&random, -1, 1);
-    if (n % 4 > 1) memcpy(net[0][n / 4][n % 4], net[0][n / 4][3 - n % 4], sizeof net[0][0][0]);
-  }
-  struct world world;
-  world_open(&world, net, 1, NULL);
-  for (int n = 0; n < FOLDED_RAYS; n++) {
-    const struct ray ray = world_ray(&random, net, 1, n % RAY_KINDS);
-    const struct hit nearest = world_closest(&world, &ray);
-    struct kept all;
-    all_of(&world, &ray, &all);
-    if (all.certainty != CERTAINTY_CERTAIN || all.count < 2) continue;
-    twice++;
-    if (!same_but_for_rounding(&nearest, &all.hits[0]) && wrong++ < 2) print_lists("folded", 0, &ray, &all);
-  }
-  world_close(&world);
-  assert_int_equal(wrong, 0);
-  assert_true(twice > FOLDED_RAYS / 8);
-}
-
 /* Six bent sides of a box, which share edges and corners. */
 static void fill_box(world_net nets[6])
 {
