@@ -346,7 +346,7 @@ patch_item:
   ;
 
 /* The objects, then modifiers. */
-union: UNION '{' { union_begin(language, $1); } union_items '}' { $$ = node_end(language, $5); };
+union: UNION '{' { node_begin(language, $1); } union_items '}' { $$ = node_end(language, $5); };
 union_items: %empty | union_items union_item;
 union_item:
     object                                     { union_add(language, $1); }
@@ -356,7 +356,7 @@ union_item:
   ;
 
 /* The object, then modifiers. */
-copy: OBJECT '{' { copy_begin(language, $1); } copy_items '}' { copy_end(language); $$ = node_end(language, $5); };
+copy: OBJECT '{' { node_begin(language, $1); } copy_items '}' { copy_end(language); $$ = node_end(language, $5); };
 copy_items: %empty | copy_items copy_item;
 copy_item:
     named                                      { copy_named(language, value_last(language, $1)); }
@@ -399,8 +399,7 @@ texture_block: TEXTURE '{' { texture_begin(language, $1, TEXTURE_ALL); } texture
 texture_items: %empty | texture_items texture_item;
 texture_item:
     named                                      { texture_named(language, value_last(language, $1)); }
-  | pigment_block                              { texture_merge(language, $1); }
-  | finish_block                               { texture_merge(language, $1); }
+  | part_block                                 { texture_merge(language, $1); }
   | transform                                  { texture_moved(language); }
   | foreign
   ;

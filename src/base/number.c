@@ -203,19 +203,6 @@ static size_t read_exponent(const char *text, size_t length, size_t i, struct de
   return j;
 }
 
-/* Writes "e", the exponent, up to EXPONENT_LIMIT, and a NUL. Returns the length without the NUL. */
-static size_t write_exponent(int exponent, char *out)
-{
-  char *to = out;
-  int power = 1;
-  *to++ = 'e';
-  if (exponent < 0) *to++ = '-';
-  for (exponent = abs(exponent); exponent / power >= 10;) power *= 10;
-  for (; power > 0; power /= 10) *to++ = (char)('0' + exponent / power % 10);
-  *to = '\0';
-  return (size_t)(to - out);
-}
-
 /* Correct for any digits: strtod gets at most DECISIVE_DIGITS of them, and a last 1 for those left out. */
 static double convert_slowly(const char *text, struct decimal decimal)
 {
@@ -239,7 +226,7 @@ static double convert_slowly(const char *text, struct decimal decimal)
   }
   if (exponent > EXPONENT_LIMIT) exponent = EXPONENT_LIMIT;
   if (exponent < -EXPONENT_LIMIT) exponent = -EXPONENT_LIMIT;
-  write_exponent((int)exponent, digits + count);
+  sprintf(digits + count, "e%d", (int)exponent);
   return strtod(digits, NULL);
 }
 
@@ -296,7 +283,7 @@ static size_t lay_out(bool negative, const char *digits, int count, int exponent
     *to++ = digits[0];
     if (count > 1) *to++ = '.';
     for (int i = 1; i < count; i++) *to++ = digits[i];
-    to += write_exponent(exponent, to);
+    to += sprintf(to, "e%d", exponent);
   }
   return (size_t)(to - out);
 }

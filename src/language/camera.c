@@ -65,19 +65,12 @@ void camera_transform(struct language *language, const struct transform *transfo
   camera->transform = transform_then(&camera->transform, transform);
 }
 
-/* Returns the length of v, and writes v scaled to length 1. For a zero vector, returns 0 and writes nothing. Nothing
- * over- or underflows except the length itself. */
+/* Returns the length of v, and writes v scaled to length 1. For a zero vector, returns 0 and writes nothing. */
 static double unit(const double v[3], double out[3])
 {
-  const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
-  if (largest == 0) return 0;
-  int exponent;
-  frexp(largest, &exponent);
-  double scaled[3];
-  for (int k = 0; k < 3; k++) scaled[k] = ldexp(v[k], -exponent);
-  const double length = vector_length(scaled);
-  vector_scale(1 / length, scaled, out);
-  return ldexp(length, exponent);
+  const double length = vector_length(v);
+  if (length > 0) vector_scale(1 / length, v, out);
+  return length;
 }
 
 /* A camera while it is folded: unit vectors, and the lengths they had. */

@@ -21,7 +21,7 @@ enum {
   MAX_STEPS = 16 /* POV-Ray halves a patch at most this often in each direction */
 };
 
-static struct open_node *open_node(struct language *language, struct span place)
+struct open_node *node_begin(struct language *language, struct span place)
 {
   struct objects *objects = language->objects;
   struct open_node *open = objects->closed;
@@ -49,7 +49,7 @@ struct node *node_end(struct language *language, struct span brace)
 
 void patch_begin(struct language *language, struct span place)
 {
-  struct node *node = &open_node(language, place)->node;
+  struct node *node = &node_begin(language, place)->node;
   node->net = language_alloc(language, sizeof *node->net);
   node->patch_count = 1;
 }
@@ -93,7 +93,7 @@ void patch_point(struct language *language, const struct value *value)
   open->points++;
 }
 
-static void points_end(struct language *language)
+void patch_modified(struct language *language)
 {
   struct open_node *open = language->objects->open;
   open->stage = STAGE_MODIFIERS;
@@ -103,18 +103,16 @@ static void points_end(struct language *language)
                    open->points);
 }
 
-void patch_modified(struct language *language) { points_end(language); }
-
 void patch_solver(struct language *language)
 {
-  points_end(language);
+  patch_modified(language);
   language->objects->open->node.method = language->method;
 }
 
 void patch_end(struct language *language)
 {
   const struct open_node *open = language->objects->open;
-  points_end(language);
+  patch_modified(language);
   if (!open->has_type)
     language_error_in(language, &open->block, open->block.place, "bicubic_patch needs its type, 0 or 1");
   sources_pass(language);
@@ -152,8 +150,6 @@ static void add_child(struct language *language, struct open_node *open, struct 
     language_limit(language, objects->whole, "objects are nested more than 200 deep");
 }
 
-void union_begin(struct language *language, struct span place) { open_node(language, place); }
-
 void union_add(struct language *language, struct node *object)
 {
   struct open_node *open = language->objects->open;
@@ -172,8 +168,6 @@ void scene_add(struct language *language, struct node *object)
 }
 
 /* ---- copies ---- */
-
-void copy_begin(struct language *language, struct span place) { open_node(language, place); }
 
 static void take_object(struct language *language, struct span place, const struct node *object)
 {

@@ -63,16 +63,15 @@ struct objects {
 
 /* Actions of the grammar, in the order of the text. What begins is open until its end, followed by node_end; the
  * actions between concern the innermost open node. `place`: that of the word or of the name. */
+struct open_node *node_begin(struct language *language, struct span place); /* a union or a copy */
 void patch_begin(struct language *language, struct span place);
 void patch_number(struct language *language, int which, struct span item, const struct value *value);
 void patch_point(struct language *language, const struct value *value);
 void patch_modified(struct language *language);
 void patch_solver(struct language *language);
 void patch_end(struct language *language);
-void union_begin(struct language *language, struct span place);
 void union_add(struct language *language, struct node *object);
 void union_modified(struct language *language);
-void copy_begin(struct language *language, struct span place);
 void copy_named(struct language *language, const struct value *value);
 void copy_object(struct language *language, const struct node *object);
 void copy_modified(struct language *language, struct span place);

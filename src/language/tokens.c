@@ -5,8 +5,6 @@
 #include "language/state.h"
 #include "language/values.h"
 
-static bool is_number(int token) { return token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT; }
-
 static void tell_too_large(struct language *language)
 {
   struct frame *frame = language->sources->frame;
@@ -109,7 +107,7 @@ static int deliver(struct language *language, int token)
   last->place = sources_here(language);
   if (token == 0) last->place = sources_span(frame, frame->source->length, frame->source->length);
   else if (token > TOKEN_FIRST_PRIVATE) token = stand_in(language, token);
-  else if (is_number(token) && frame->scan.too_large) tell_too_large(language);
+  else if ((token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT) && frame->scan.too_large) tell_too_large(language);
   if (tokens->solver_part != SOLVER_OUTSIDE || token == PSCN_TOKEN_SOLVER) token = solver_token(tokens, token);
   last->token = token;
   last->depth = tokens->depth;
@@ -195,11 +193,7 @@ static void pass_parentheses(struct language *language, int open)
 bool tokens_parse(struct language *language, int start, struct value **out)
 {
   struct tokens *tokens = language->tokens;
-  const struct delivered last = tokens->last;
-  const enum solver_part solver_part = tokens->solver_part;
-  const int parentheses = tokens->parentheses, depth = tokens->depth;
-  const bool naming = tokens->naming;
-  const struct own *own = tokens->own;
+  struct tokens before = *tokens;
   *out = NULL;
   if (tokens->nested == MAX_NESTING)
     language_limit(language, sources_here(language), "macros and conditions are nested more than 200 deep");
@@ -222,13 +216,8 @@ bool tokens_parse(struct language *language, int start, struct value **out)
   *out = language->list;
   language->list = NULL;
   if (!read) pass_parentheses(language, 1);
-  tokens->nested--;
-  tokens->naming = naming;
-  tokens->own = own;
-  tokens->solver_part = solver_part;
-  tokens->parentheses = parentheses;
-  tokens->depth = depth;
-  tokens->last = last;
+  before.told = tokens->told;
+  *tokens = before;
   return read;
 }
 
@@ -251,8 +240,8 @@ static void draw(struct language *language)
     value_last(language, value_function(language, list, place, place));
 }
 
-/* `wrong`: the token where skipping begins may be that of an item. */
-static bool skip(struct language *language, bool wrong)
+/* False at the end of the text. `wrong`: the token where skipping begins may be that of an item. */
+static bool skip_item(struct language *language, bool wrong)
 {
   struct tokens *tokens = language->tokens;
   const struct delivered *last = &tokens->last;
@@ -292,21 +281,21 @@ static bool skip(struct language *language, bool wrong)
 }
 
 /* Skipped text may be full of what means nothing here, as a map of colours is. This is reported once. */
-bool tokens_recover(struct language *language)
+static bool skip(struct language *language, bool wrong)
 {
-  language->idle = 0;
   language->tokens->skipping = 1 + language->tokens->last.depth;
-  const bool more = skip(language, true);
+  const bool more = skip_item(language, wrong);
   language->tokens->skipping = 0;
   return more;
 }
 
-void tokens_pass(struct language *language)
+bool tokens_recover(struct language *language)
 {
-  language->tokens->skipping = 1 + language->tokens->last.depth;
-  (void)skip(language, false);
-  language->tokens->skipping = 0;
+  language->idle = 0;
+  return skip(language, true);
 }
+
+void tokens_pass(struct language *language) { (void)skip(language, false); }
 
 struct span tokens_pass_block(struct language *language)
 {
