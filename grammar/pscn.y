@@ -57,25 +57,23 @@ static void pscn_error(struct language *language, const char *message)
 %token <place> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a string"
 %token <place> FOREIGN SHAPE REFUSED IGNORED COMPONENT
 %token <place> START_SCENE START_SOLVER START_CONDITION START_RANGE START_FOR START_INDICES START_STRING START_ARGUMENTS START_DIRECTIVE
+/* words.c: those from VERSION to DEFAULT are directives, to OBJECT they begin a statement, to SOLVER an item. */
 %token <place> VERSION "#version" DECLARE "#declare" LOCAL "#local" DEFAULT "#default"
-%token <place> GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma"
-%token <place> AMBIENT_LIGHT "ambient_light"
-%token <place> CAMERA "camera" LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up"
-%token <place> SKY "sky" ANGLE "angle" LOOK_AT "look_at"
-%token <place> LIGHT_SOURCE "light_source" SHADOWLESS "shadowless" BACKGROUND "background"
-%token <place> BICUBIC_PATCH "bicubic_patch" TYPE "type" FLATNESS "flatness" U_STEPS "u_steps" V_STEPS "v_steps"
-%token <place> UV_VECTORS "uv_vectors"
-%token <place> UNION "union" OBJECT "object" TRANSLATE "translate" ROTATE "rotate" SCALE "scale" MATRIX "matrix"
-%token <place> TRANSFORM "transform"
+%token <place> GLOBAL_SETTINGS "global_settings" CAMERA "camera" LIGHT_SOURCE "light_source" BACKGROUND "background"
+%token <place> BICUBIC_PATCH "bicubic_patch" UNION "union" OBJECT "object"
+%token <place> ASSUMED_GAMMA "assumed_gamma" AMBIENT_LIGHT "ambient_light"
+%token <place> LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up" SKY "sky" ANGLE "angle" LOOK_AT "look_at"
+%token <place> SHADOWLESS "shadowless"
+%token <place> TYPE "type" FLATNESS "flatness" U_STEPS "u_steps" V_STEPS "v_steps" UV_VECTORS "uv_vectors"
+%token <place> TRANSLATE "translate" ROTATE "rotate" SCALE "scale" MATRIX "matrix" TRANSFORM "transform"
 %token <place> TEXTURE "texture" PIGMENT "pigment" FINISH "finish"
 %token <place> AMBIENT "ambient" DIFFUSE "diffuse" BRILLIANCE "brilliance" PHONG "phong" PHONG_SIZE "phong_size"
-%token <place> SPECULAR "specular" ROUGHNESS "roughness"
+%token <place> SPECULAR "specular" ROUGHNESS "roughness" SOLVER "solver"
 %token <place> COLOR "color" RGB "rgb" X "x" Y "y" Z "z"
 %token <place> RED "red" GREEN "green" BLUE "blue" FILTER "filter"
 %token COMPARISON
 %token <place> CONSTANT "a constant" FUNCTION "a function" DEFINED "defined" ARRAY "array"
 %token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use makes POV-Ray warn */
-%token <place> SOLVER "solver"
 
 %type <value> expression condition name named string value colour spaced shade solid array quantity
 %type <list> list parts indices more_indices target arguments

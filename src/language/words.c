@@ -107,44 +107,20 @@ int words_directive_token(const char *text, size_t length)
   return found ? found->token : TOKEN_UNKNOWN_DIRECTIVE;
 }
 
-static bool is_one_of(int token, const int tokens[], size_t count)
-{
-  for (size_t k = 0; k < count; k++)
-    if (tokens[k] == token) return true;
-  return false;
-}
+/* In the order of grammar/pscn.y. */
+static bool is_between(int first, int token, int last) { return first <= token && token <= last; }
 
-bool words_begin_statement(int token)
-{
-  static const int statements[] = {PSCN_TOKEN_VERSION,         PSCN_TOKEN_DECLARE,    PSCN_TOKEN_LOCAL,
-                                   PSCN_TOKEN_GLOBAL_SETTINGS, PSCN_TOKEN_DEFAULT,    PSCN_TOKEN_CAMERA,
-                                   PSCN_TOKEN_LIGHT_SOURCE,    PSCN_TOKEN_BACKGROUND, PSCN_TOKEN_BICUBIC_PATCH,
-                                   PSCN_TOKEN_UNION,           PSCN_TOKEN_OBJECT};
-  return is_one_of(token, statements, COUNT(statements));
-}
+bool words_begin_statement(int token) { return is_between(PSCN_TOKEN_VERSION, token, PSCN_TOKEN_OBJECT); }
+
+bool words_begin_item(int token) { return is_between(PSCN_TOKEN_VERSION, token, PSCN_TOKEN_SOLVER); }
+
+bool words_are_foreign(int token) { return is_between(PSCN_TOKEN_FOREIGN, token, PSCN_TOKEN_IGNORED); }
 
 bool words_is(int token)
 {
-  return token > 255 && token < TOKEN_FIRST_PRIVATE && token != PSCN_TOKEN_NUMBER && token != PSCN_TOKEN_POINT &&
-         token != PSCN_TOKEN_STRING && token != PSCN_TOKEN_VERSION && token != PSCN_TOKEN_DECLARE &&
-         token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_DEFAULT && token != PSCN_TOKEN_COMPARISON;
-}
-
-bool words_are_foreign(int token)
-{
-  return token == PSCN_TOKEN_FOREIGN || token == PSCN_TOKEN_SHAPE || token == PSCN_TOKEN_REFUSED ||
-         token == PSCN_TOKEN_IGNORED;
-}
-
-bool words_begin_item(int token)
-{
-  static const int in_values[] = {
-    PSCN_TOKEN_WORD,      PSCN_TOKEN_NUMBER,  PSCN_TOKEN_POINT,  PSCN_TOKEN_STRING,     PSCN_TOKEN_COLOR,
-    PSCN_TOKEN_RGB,       PSCN_TOKEN_RED,     PSCN_TOKEN_GREEN,  PSCN_TOKEN_BLUE,       PSCN_TOKEN_X,
-    PSCN_TOKEN_Y,         PSCN_TOKEN_Z,       PSCN_TOKEN_FILTER, PSCN_TOKEN_COMPONENT,  PSCN_TOKEN_CONSTANT,
-    PSCN_TOKEN_FUNCTION,  PSCN_TOKEN_DEFINED, PSCN_TOKEN_ARRAY,  PSCN_TOKEN_DEPRECATED, PSCN_TOKEN_ONCE,
-    PSCN_TOKEN_COMPARISON};
-  return token > 255 && !words_are_foreign(token) && !is_one_of(token, in_values, COUNT(in_values));
+  return is_between(256, token, TOKEN_FIRST_PRIVATE) && !is_between(PSCN_TOKEN_VERSION, token, PSCN_TOKEN_DEFAULT) &&
+         token != PSCN_TOKEN_NUMBER && token != PSCN_TOKEN_POINT && token != PSCN_TOKEN_STRING &&
+         token != PSCN_TOKEN_COMPARISON;
 }
 
 static enum words_kind kind_of(int token)
