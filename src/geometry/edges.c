@@ -1,7 +1,5 @@
-/* Finds shared borders by a table of all borders, looked up by their control points: open addressing with linear
- * probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). Each thread has its own part of the table, and
- * enters the borders that belong there. Slots are chosen by a hash with random keys, or a made-up scene could have all
- * of its borders in one of them; which patches share which borders does not depend on the keys. */
+/* Finds shared borders and surfaces by tables with open addressing and linear probing (Knuth, The Art of Computer
+ * Programming 3, 6.4, algorithm L). */
 #include "geometry/edges.h"
 
 #include <stdatomic.h>
@@ -10,19 +8,23 @@
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "geometry/patch.h"
+
+struct slot {
+  uint32_t first; /* border or net of its kind, counted from 1; 0 for a free slot */
+  uint32_t tag;   /* bits of the hash */
+};
+
+/* ---- borders, looked up by their control points. Each thread has its own part of the table, and enters the borders that
+ * belong there. Slots are chosen by a hash with random keys, or a made-up scene could have all of its borders in one of
+ * them; which patches share which borders does not depend on the keys. ---- */
 
 struct border {
   double point[4][3]; /* in the direction that sorts first */
   bool reversed;      /* against the running parameter */
 };
 
-/* The first border with these points, counted from 1, or 0 for a free slot; with MANY if more than two borders have
- * them. */
-struct slot {
-  uint32_t border;
-  uint32_t tag; /* bits of the hash */
-};
-
+/* In a slot's `first`: more than two borders have its points. */
 #define MANY (UINT32_C(1) << 31)
 
 static const struct edge_neighbour alone = {EDGE_NONE, 0, false};
@@ -62,7 +64,7 @@ static int compare_numbers(const double *a, const double *b, size_t count)
 static struct border border_of(const struct matching *m, size_t index)
 {
   struct border b;
-  const double *net = (const double *)(const void *)(m->nets + index / 4 * m->stride);
+  const double *net = net_at(m->nets, m->stride, index / 4);
   double points[4][3], back[4][3];
   for (int k = 0; k < 4; k++) {
     const double *p = border_point(net, (int)(index % 4), k);
@@ -131,13 +133,13 @@ static enum status hash_borders(void *context, size_t worker)
 static void meet(struct matching *m, struct slot *slot, size_t index, const struct border *b,
                  const struct border *first)
 {
-  const size_t k = slot->border - 1;
+  const size_t k = slot->first - 1;
   struct edge_neighbour *here = &m->out[k];
   if (collapsed(&first->point[0][0])) return;
   if (here->patch != EDGE_NONE) {
     struct edge_neighbour *second = &m->out[4 * (size_t)here->patch + here->border];
     *second = *here = alone;
-    slot->border |= MANY;
+    slot->first |= MANY;
     return;
   }
   const bool reversed = b->reversed != first->reversed;
@@ -151,14 +153,14 @@ static bool place_border(struct matching *m, size_t index, struct slot *slots, s
   const uint32_t tag = (uint32_t)m->hash[index];
   for (size_t k = 0; k < count; k++, home = home + 1 < count ? home + 1 : 0) {
     struct slot *slot = &slots[home];
-    if (slot->border == 0) {
+    if (slot->first == 0) {
       *slot = (struct slot){(uint32_t)index + 1, tag};
       return true;
     }
     if (slot->tag != tag) continue;
-    const struct border b = border_of(m, index), first = border_of(m, (slot->border & ~MANY) - 1);
+    const struct border b = border_of(m, index), first = border_of(m, (slot->first & ~MANY) - 1);
     if (compare_numbers(&first.point[0][0], &b.point[0][0], 12)) continue;
-    if (!(slot->border & MANY)) meet(m, slot, index, &b, &first);
+    if (!(slot->first & MANY)) meet(m, slot, index, &b, &first);
     return true;
   }
   return false;
@@ -205,4 +207,124 @@ enum status edges_match(const void *nets, size_t stride, size_t count, const uin
   memory_free(m.hash);
   memory_free(m.slots);
   return status;
+}
+
+/* ---- surfaces. A net is looked up by its four inner control points, which stay together in the middle in whatever order
+ * it is read, and by its plane if it lies in one. ---- */
+
+/* At most this many slots of the table are examined for one net. As half of them are free, it takes a few, except in a
+ * made-up scene, which must not take long either. */
+enum { MOST_SLOTS = 64 };
+
+/* The eight orders: a net or its transpose, with one parameter or both reversed, or none. */
+enum { TRANSPOSED = 1, U_REVERSED = 2, V_REVERSED = 4, ORDERS = 8 };
+
+static bool equal_as(const double P[48], const double Q[48], int order)
+{
+  for (int n = 0; n < 16; n++) {
+    int i = n / 4, j = n % 4;
+    if (order & TRANSPOSED) i = n % 4, j = n / 4;
+    if (order & U_REVERSED) i = 3 - i;
+    if (order & V_REVERSED) j = 3 - j;
+    const double *p = P + 12 * i + 3 * j, *q = Q + 3 * n;
+    if (p[0] != q[0] || p[1] != q[1] || p[2] != q[2]) return false;
+  }
+  return true;
+}
+
+static bool are_twins(const double P[48], const double Q[48])
+{
+  for (int order = 0; order < ORDERS; order++)
+    if (equal_as(P, Q, order)) return true;
+  return false;
+}
+
+/* The axis across which the net lies in a plane, or -1. */
+static int flat_axis(const double P[48])
+{
+  for (int axis = 0; axis < 3; axis++) {
+    int n = 1;
+    while (n < 16 && P[3 * n + axis] == P[axis]) n++;
+    if (n == 16) return axis;
+  }
+  return -1;
+}
+
+static bool in_one_plane(const double P[48], const double Q[48])
+{
+  const int axis = flat_axis(P);
+  return axis >= 0 && axis == flat_axis(Q) && P[axis] == Q[axis];
+}
+
+static uint64_t mixed(uint64_t x)
+{
+  x = (x ^ x >> 32) * UINT64_C(0x9e3779b97f4a7c15);
+  return x ^ x >> 29;
+}
+
+/* The same in any order of the points: a sum over them. */
+static uint64_t inner_hash(const double P[48])
+{
+  uint64_t hash = 0;
+  for (int n = 0; n < 4; n++) {
+    uint64_t point = 0;
+    for (int c = 0; c < 3; c++) /* of -0 the bits of 0 */
+      point = mixed(point + real_bits(P[12 * (1 + n / 2) + 3 * (1 + n % 2) + c] + 0.0));
+    hash += point;
+  }
+  return mixed(hash);
+}
+
+/* Of a net in a plane: the same for all nets in it. */
+static uint64_t plane_hash(const double P[48], int axis)
+{
+  return mixed(mixed(real_bits(P[axis] + 0.0)) + (unsigned)axis);
+}
+
+struct table {
+  const void *nets;
+  size_t stride, count;
+  struct slot *slots;
+};
+
+typedef bool same_net(const double P[48], const double Q[48]);
+
+/* Counted from 1, the first net with that hash that is the same as net p; 0 if there is none, and then p is placed. */
+static uint32_t first_of(const struct table *table, size_t p, uint64_t hash, same_net *same)
+{
+  const double *net = net_at(table->nets, table->stride, p);
+  size_t at = (size_t)((hash >> 32) * table->count >> 32);
+  for (int n = 0; n < MOST_SLOTS; n++, at = at + 1 < table->count ? at + 1 : 0) {
+    struct slot *slot = &table->slots[at];
+    if (slot->first == 0) {
+      *slot = (struct slot){(uint32_t)p + 1, (uint32_t)hash};
+      return 0;
+    }
+    if (slot->tag == (uint32_t)hash && same(net_at(table->nets, table->stride, slot->first - 1), net))
+      return slot->first;
+  }
+  return 0;
+}
+
+enum status surfaces_find(const void *nets, size_t stride, size_t count, uint32_t out[])
+{
+  if (count >= UINT32_MAX / 8) return STATUS_LIMIT;
+  struct table table = {nets, stride, 4 * count + 1, NULL};
+  table.slots = memory_alloc(table.count, sizeof *table.slots);
+  if (!table.slots) return STATUS_LIMIT;
+  for (size_t p = 0; p < count; p++) {
+    const double *net = net_at(nets, stride, p);
+    const int axis = flat_axis(net);
+    const uint32_t twin = first_of(&table, p, inner_hash(net), are_twins);
+    out[p] = 0;
+    if (twin) {
+      if (!out[twin - 1]) out[twin - 1] = twin;
+      out[p] = out[twin - 1] | SURFACE_AGAIN;
+    } else if (axis >= 0) {
+      const uint32_t first = first_of(&table, p, plane_hash(net, axis), in_one_plane);
+      out[p] = (uint32_t)(axis + 1) << 29 | (first ? first : (uint32_t)p + 1);
+    }
+  }
+  memory_free(table.slots);
+  return STATUS_OK;
 }

@@ -68,19 +68,8 @@ static double get_form(const struct method *method)
   return papers_way(method) && method->split == 1 && solver_options_paper(&method->roots) ? 0.0 : 1.0;
 }
 
-static const char *const form_words[] = {"paper", "improved", NULL};
-static const char *const radii_words[] = {"circle", "polygon", NULL};
-static const char *const stop_words[] = {"step", "rounding", NULL};
-static const char *const horner_words[] = {"plain", "charts", NULL};
-static const char *const update_words[] = {"jacobi", "gauss_seidel", NULL};
-static const char *const deflation_words[] = {"forward", "composite", NULL};
-static const char *const start_words[] = {"cold", "previous", NULL};
-static const char *const basis_words[] = {"bernstein", "power", NULL};
-static const char *const resultant_words[] = {"bezout", "sylvester", NULL};
-static const char *const back_substitution_words[] = {"null_vector", "euclid", NULL};
-static const char *const off_on[] = {"off", "on", NULL};
-static const char *const residual_words[] = {"auto", NULL};
-static const char *const split_words[] = {"auto", NULL};
+/* The keywords of an item. */
+#define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
 
 /* Limits. A tolerance of 1 in a parameter of [0,1] demands nothing. Iterations are bounded so that no solve can
  * hang. */
@@ -94,34 +83,36 @@ static const struct method_item items[] = {
   {"max_iterations", "steps a root may take", METHOD_ITEM_INTEGER, NULL, 1, MAX_ITERATIONS, set_max_iterations,
    get_max_iterations},
   {"start", "from Aberth's circle, or from the roots of the previous ray on the same leaf", METHOD_ITEM_KEYWORD,
-   start_words, 0, 1, set_start, get_start},
+   WORDS("cold", "previous"), 0, 1, set_start, get_start},
   /* form comes before the items that it sets, so that a block written in this order reads back the same. */
   {"form", "paper: the paper's way, all of the following; improved: the iterations with all improvements",
-   METHOD_ITEM_KEYWORD, form_words, 0, 1, set_form, get_form},
-  {"basis", "in which the resultant is written", METHOD_ITEM_KEYWORD, basis_words, 0, 1, set_basis, get_basis},
-  {"resultant", "how v is eliminated", METHOD_ITEM_KEYWORD, resultant_words, 0, 1, set_resultant, get_resultant},
-  {"back_substitution", "how v is found from u", METHOD_ITEM_KEYWORD, back_substitution_words, 0, 1,
+   METHOD_ITEM_KEYWORD, WORDS("paper", "improved"), 0, 1, set_form, get_form},
+  {"basis", "in which the resultant is written", METHOD_ITEM_KEYWORD, WORDS("bernstein", "power"), 0, 1, set_basis,
+   get_basis},
+  {"resultant", "how v is eliminated", METHOD_ITEM_KEYWORD, WORDS("bezout", "sylvester"), 0, 1, set_resultant,
+   get_resultant},
+  {"back_substitution", "how v is found from u", METHOD_ITEM_KEYWORD, WORDS("null_vector", "euclid"), 0, 1,
    set_back_substitution, get_back_substitution},
   {"polish", "on: Newton on the patch itself, and every answer certified; off: the solver's roots are the answer",
-   METHOD_ITEM_KEYWORD, off_on, 0, 1, set_polish, get_polish},
+   METHOD_ITEM_KEYWORD, WORDS("off", "on"), 0, 1, set_polish, get_polish},
   {"residual", "polish off: at a hit both plane polynomials are below this, relative; 1 accepts every root",
-   METHOD_ITEM_NUMBER, residual_words, DBL_MIN, MAX_RESIDUAL, set_residual, get_residual},
-  {"split", "each patch is cut into N x N leaves; 1 = whole patches", METHOD_ITEM_INTEGER, split_words, 1,
+   METHOD_ITEM_NUMBER, WORDS("auto"), DBL_MIN, MAX_RESIDUAL, set_residual, get_residual},
+  {"split", "each patch is cut into N x N leaves; 1 = whole patches", METHOD_ITEM_INTEGER, WORDS("auto"), 1,
    METHOD_MAX_SPLIT, set_split, get_split},
-  {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", METHOD_ITEM_KEYWORD, radii_words,
-   0, 1, set_radii, get_radii},
-  {"stop", "by eq 10 alone, or also if the value is below its own rounding bound", METHOD_ITEM_KEYWORD, stop_words, 0,
-   1, set_stop, get_stop},
+  {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", METHOD_ITEM_KEYWORD,
+   WORDS("circle", "polygon"), 0, 1, set_radii, get_radii},
+  {"stop", "by eq 10 alone, or also if the value is below its own rounding bound", METHOD_ITEM_KEYWORD,
+   WORDS("step", "rounding"), 0, 1, set_stop, get_stop},
   {"horner", "values by Horner's scheme in z as printed, or in 1/z if that is smaller", METHOD_ITEM_KEYWORD,
-   horner_words, 0, 1, set_horner, get_horner},
+   WORDS("plain", "charts"), 0, 1, set_horner, get_horner},
   {"update", "aberth, durand_kerner: from the values before the sweep, or from the newest", METHOD_ITEM_KEYWORD,
-   update_words, 0, 1, set_update, get_update},
-  {"rest", "aberth, durand_kerner: a finished root stays while others move", METHOD_ITEM_KEYWORD, off_on, 0, 1,
-   set_rest, get_rest},
+   WORDS("jacobi", "gauss_seidel"), 0, 1, set_update, get_update},
+  {"rest", "aberth, durand_kerner: a finished root stays while others move", METHOD_ITEM_KEYWORD, WORDS("off", "on"), 0,
+   1, set_rest, get_rest},
   {"deflation", "newton, laguerre: division from the highest power, or from both ends", METHOD_ITEM_KEYWORD,
-   deflation_words, 0, 1, set_deflation, get_deflation},
-  {"refine", "newton, laguerre: last steps on the polynomial before deflation", METHOD_ITEM_KEYWORD, off_on, 0, 1,
-   set_refine, get_refine},
+   WORDS("forward", "composite"), 0, 1, set_deflation, get_deflation},
+  {"refine", "newton, laguerre: last steps on the polynomial before deflation", METHOD_ITEM_KEYWORD, WORDS("off", "on"),
+   0, 1, set_refine, get_refine},
 };
 
 size_t method_item_count(void) { return sizeof items / sizeof items[0]; }
