@@ -18,10 +18,9 @@
 }
 
 %code {
-#include "language/camera.h"
-#include "language/symbols.h"
 #include "language/objects.h"
 #include "language/settings.h"
+#include "language/symbols.h"
 #include "language/tokens.h"
 
 #define YYSTACK_USE_ALLOCA 0

@@ -1,14 +1,13 @@
 /* Folds the camera's items into location, direction, right and up as POV-Ray 3.7 does, wherever they stand: the angle
  * sets the length of direction from that of right; look_at takes effect after all vectors and turns the frame, keeping
  * lengths and handedness; the transforms come last. */
-#include "language/camera.h"
+#include "language/settings.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/number.h"
 #include "geometry/vector.h"
-#include "language/settings.h"
 
 #define RADIANS_A_DEGREE (3.14159265358979323846 / 180)
 

@@ -1,10 +1,9 @@
 /* Conditions, loops and #switch. */
-#include "language/directives.h"
+#include "language/tokens.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "language/tokens.h"
 #include "language/values.h"
 
 static struct frame *frame_of(const struct language *language) { return language->sources->frame; }

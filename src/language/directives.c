@@ -1,5 +1,5 @@
 /* Directives, and all other tokens that are not the grammar's. */
-#include "language/directives.h"
+#include "language/tokens.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,6 @@
 #include "language/sources.h"
 #include "language/state.h"
 #include "language/symbols.h"
-#include "language/tokens.h"
 #include "language/values.h"
 
 /* The last token of the source being read, whatever it is. */

@@ -8,8 +8,6 @@
 
 #include "base/input.h"
 #include "base/memory.h"
-#include "language/camera.h"
-#include "language/directives.h"
 #include "language/objects.h"
 #include "language/settings.h"
 #include "language/sources.h"

@@ -1,4 +1,4 @@
-/* global_settings, background and light sources. */
+/* global_settings, background, light sources, the solver statement and the camera. */
 #ifndef PSCN_LANGUAGE_SETTINGS_H
 #define PSCN_LANGUAGE_SETTINGS_H
 
@@ -56,5 +56,29 @@ const struct method_item *solver_item_find(const struct name *word);
 void solver_quantity(struct language *language, struct span item, const struct value *value);
 /* A keyword of the item, or else the name of a number. */
 void solver_word(struct language *language, struct span item, struct span value);
+
+/* ---- the camera: its items, and how they fold into location, direction, right and up ---- */
+
+enum { CAMERA_LOCATION, CAMERA_DIRECTION, CAMERA_RIGHT, CAMERA_UP, CAMERA_SKY, CAMERA_LOOK_AT };
+
+struct camera_items {
+  double item[6][3];
+  bool said;    /* there is a camera statement */
+  bool unknown; /* a vector is, because of an earlier error */
+  bool look_at;
+  double angle;               /* degrees; 0: not given */
+  struct transform transform; /* applied to what all other items make */
+  struct block block;
+  struct span look_at_place;
+  struct scene_camera folded; /* what they make */
+};
+
+void camera_default(struct camera_items *out);
+/* Actions of the grammar, in the order of the text. `place`: that of the word. */
+void camera_begin(struct language *language, struct span place);
+void camera_vector(struct language *language, int which, const struct value *value);
+void camera_angle(struct language *language, const struct value *value);
+void camera_transform(struct language *language, const struct transform *transform);
+void camera_end(struct language *language);
 
 #endif

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/include_path.h"
 #include "base/memory.h"
+#include "base/source.h"
 #include "language/symbols.h"
 
 __extension__ typedef unsigned __int128 hash_type;

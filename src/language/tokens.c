@@ -1,7 +1,6 @@
 /* The stream of tokens, with braces counted for recovery. */
 #include "language/tokens.h"
 
-#include "language/directives.h"
 #include "language/state.h"
 #include "language/values.h"
 

@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "base/source.h"
-#include "base/include_path.h"
 #include "language/scan.h"
 #include "language/words.h"
 
