@@ -74,7 +74,7 @@ static void pscn_error(struct language *language, const char *message)
 %token <place> CONSTANT "a constant" FUNCTION "a function" DEFINED "defined" ARRAY "array"
 %token <place> DEPRECATED "deprecated" ONCE "once" /* before a name whose use makes POV-Ray warn */
 
-%type <value> expression condition name named string value colour spaced shade solid array quantity
+%type <value> expression condition name named string value colour spaced shade solid any array quantity
 %type <list> list parts indices more_indices target arguments
 %type <index> camera_vector
 %type <place> part component solver method modifier
@@ -126,9 +126,7 @@ string:
 
 arguments:
     %empty                                     { $$ = NULL; }
-  | arguments colour comma                     { $$ = value_before($1, $2); }
-  | arguments solid comma                      { $$ = value_before($1, $2); }
-  | arguments texture_block comma              { $$ = value_before($1, value_of_texture(language, $2)); }
+  | arguments any comma                        { $$ = value_before($1, $2); }
   ;
 
 statements: %empty | statements statement;
@@ -181,6 +179,8 @@ solid:
   | transform_block                            { $$ = value_of_transform(language, $1); }
   | array
   ;
+/* Whatever has a value. */
+any: colour %prec ITEM | solid | texture_block { $$ = value_of_texture(language, $1); };
 declare: DECLARE old target '='                { $$ = declare_begin(language, value_reversed($3), NULL); }
   | LOCAL old target '='                       { $$ = declare_begin(language, value_reversed($3), &$1); };
 target: WORD                                   { $$ = value_before(NULL, value_of(language, VALUE_NONE, $1)); }
@@ -201,9 +201,7 @@ more_indices: %empty                           { $$ = NULL; }
   | more_indices '[' expression ']'            { $$ = value_before($1, $3); };
 elements: %empty | elements element comma;
 element:
-    shade                                      { array_given(language, $1); }
-  | solid                                      { array_given(language, $1); value_last(language, $1); }
-  | texture_block                              { array_given(language, value_last(language, value_of_texture(language, $1))); }
+    any                                        { array_given(language, $1); value_last(language, $1); }
   | '{' { array_row(language, $1); } elements '}' { array_row_end(language, $4); }
   | wrong
   ;

@@ -10,11 +10,8 @@ static struct frame *frame_of(const struct language *language) { return language
 
 /* ---- skipping ---- */
 
-enum skip_stop {
-  STOP_END,
-  STOP_ELSE,
-  STOP_CASE
-}; /* at #end only; also at #else and #elseif; or at #else, #case, #range */
+/* At #end only; also at #else and #elseif; or at #else, #case and #range. */
+enum skip_stop { STOP_END, STOP_ELSE, STOP_CASE };
 
 /* Skips to a directive of the condition whose text this is, and returns it; 0 is the end of the source. The skipped
  * text may hold conditions of its own. */
