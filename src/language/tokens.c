@@ -138,11 +138,10 @@ static void read_directive(struct language *language)
   const int skipping = tokens->skipping;
   if (tokens->nested == MAX_NESTING)
     language_limit(language, tokens->last.place, "declarations are nested more than 200 deep");
-  tokens->last.again = true;
   tokens->start[0] = PSCN_TOKEN_START_DIRECTIVE;
+  tokens->start[1] = own.token;
   tokens->skipping = 0;
-  tokens->own = NULL; /* not for the directive's own word */
-  tokens->own_next = &own;
+  tokens->own = &own;
   tokens->nested++;
   const bool read = pscn_parse(language) == 0;
   tokens->own = outer;
@@ -161,11 +160,6 @@ int tokens_next(struct language *language)
   for (bool again = last->again;; again = last->again) {
     last->again = false;
     token = again ? last->token : deliver(language, scan(language));
-    if (tokens->own_next) { /* this is the directive's own word */
-      tokens->own = tokens->own_next;
-      tokens->own_next = NULL;
-      return token;
-    }
     if (!again) tokens->previous = previous;
     if (is_behind(language, token)) {
       last->again = true;
