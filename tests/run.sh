@@ -32,7 +32,7 @@ QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.001
 # Hundreds of pictures compared with a peer's, programs started again and again, and arithmetic: other tests already run
 # their code.
 ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|gamma|kinds|examples|farm-slurm)|paper-counts'
-ASAN_WITHOUT+='|unit-(certificate|quadric-baseline|split)|accuracy-(cycles|kernels)|corpus'
+ASAN_WITHOUT+='|unit-(certificate|split)|accuracy-(cycles|kernels)|corpus'
 ASAN_WITHOUT+='|library-arm64|property-(copies|flats|refine|rooms|sizes|solvers|team|twins|unkept)|cli-(merge|resume|povray-fails|scene-memory))$'
 # Then these are left out of the development build's pass: the sanitizers' pass has done the same, and seen more.
 ALL_WITHOUT='^(fault-(commands|files)|peers-(check-.*|chart|dump|windows)|cli-(chart|compare|habits))$'

@@ -12,34 +12,35 @@
 #include "geometry/edges.h"
 #include "geometry/vector.h"
 
-/* (1-t) a + t b; exact at t = 0 and t = 1, and where a = b. */
-static double mix(double a, double b, double t) { return t == 1 ? b : a + t * (b - a); }
-
-static double blossom(const double c[4], double r, double s, double t)
+/* (1-t) a + t b for four numbers; exact at t = 0 and t = 1, and where a = b. */
+static void mix(const double a[4], const double b[4], double t, double out[4])
 {
-  const double q0 = mix(c[0], c[1], r), q1 = mix(c[1], c[2], r), q2 = mix(c[2], c[3], r);
-  return mix(mix(q0, q1, s), mix(q1, q2, s), t);
+  if (t == 1) memcpy(out, b, 4 * sizeof *out);
+  else
+    for (int k = 0; k < 4; k++) out[k] = a[k] + t * (b[k] - a[k]);
 }
 
-static void cubic_range(const double c[4], double t0, double t1, double out[4])
+/* Four cubics side by side, c[i] their i-th control values, over [t0,t1]. */
+static void cubics_range(double c[4][4], double t0, double t1)
 {
-  if (t0 == 0 && t1 == 1) {
-    memmove(out, c, 4 * sizeof *out);
-    return;
+  double low[3][4], high[3][4], lower[2][4], between[2][4], higher[2][4];
+  if (t0 == 0 && t1 == 1) return;
+  for (int k = 0; k < 3; k++) mix(c[k], c[k + 1], t0, low[k]), mix(c[k], c[k + 1], t1, high[k]);
+  for (int k = 0; k < 2; k++) {
+    mix(low[k], low[k + 1], t0, lower[k]), mix(low[k], low[k + 1], t1, between[k]);
+    mix(high[k], high[k + 1], t1, higher[k]);
   }
-  const double q[4] = {blossom(c, t0, t0, t0), blossom(c, t0, t0, t1), blossom(c, t0, t1, t1), blossom(c, t1, t1, t1)};
-  memcpy(out, q, sizeof q);
+  mix(lower[0], lower[1], t0, c[0]), mix(lower[0], lower[1], t1, c[1]);
+  mix(between[0], between[1], t1, c[2]), mix(higher[0], higher[1], t1, c[3]);
 }
 
 void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, double out[4][4])
 {
-  for (int i = 0; i < 4; i++) cubic_range(net[i], v0, v1, out[i]);
-  for (int j = 0; j < 4; j++) {
-    const double column[4] = {out[0][j], out[1][j], out[2][j], out[3][j]};
-    double cut[4];
-    cubic_range(column, u0, u1, cut);
-    for (int i = 0; i < 4; i++) out[i][j] = cut[i];
-  }
+  double turned[4][4];
+  for (int n = 0; n < 16; n++) turned[n / 4][n % 4] = net[n % 4][n / 4];
+  cubics_range(turned, v0, v1);
+  for (int n = 0; n < 16; n++) out[n / 4][n % 4] = turned[n % 4][n / 4];
+  cubics_range(out, u0, u1);
 }
 
 /* Reduces a cubic whose true degree is `degree` to that degree's Bezier form. */

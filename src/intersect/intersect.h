@@ -69,7 +69,7 @@ struct hit_list {
 
 /* The stages of a candidate: a ray and a leaf whose box it passes (lanes/candidate.h). */
 enum stage {
-  STAGE_BILINEAR,  /* the resultant of degree 2 of the leaf's bilinear part, and its quadric */
+  STAGE_BILINEAR,  /* the resultant of degree 2 of the leaf's bilinear part */
   STAGE_PLANES,    /* hulls of the plane polynomials */
   STAGE_RESULTANT, /* the resultant of full degree is formed */
   STAGE_ROOTS,     /* the roots of the resultant are sought */

@@ -54,9 +54,7 @@ struct leaf_parts {
   double rest[16][3]; /* coefficient of s^i t^j at rest[4 * i + j] */
   double error;       /* bound on what rounding the rest adds to local_ray.error in either plane's polynomial */
   bool final;         /* its rounding is so small that its roots need no last step */
-  /* after a step up to these, in leaf parameters, the root is right to the rounding of its coordinates, and derivatives
-   * before it to their own */
-  double last_step, slope_step;
+  double last_step; /* after a step up to this, in leaf parameters, the root is right to the rounding of its coordinates */
 };
 
 #define LEAF_GRAIN 0x1p-24
@@ -67,33 +65,16 @@ struct leaf_slab {
   double g[3], offset, half;
 };
 
-/* The quadric that the leaf lies along. With z, y1, y2 for g x - offset of slab[0], slab[1], slab[2] let
- *
- *     rest = z - (c[0] + c[1] y1 + c[2] y2 + c[3] y1^2 + c[4] y1 y2 + c[5] y2^2).
- *
- * On the leaf |rest| <= off. From one point of the leaf to another, rest changes by at most turn[0] times the change of
- * y1 plus turn[1] times that of y2; on the leaf widened by LEAF_MARGIN, by turn_wide. This holds for the exact patch,
- * and for points and forms of a ray that are off by no more than QUADRIC_ERROR makes of them. `slack` bounds what that
- * makes of a derivative along the ray. Bounds are infinite where there are none. */
-struct leaf_quadric {
-  double c[6], off, turn[2], turn_wide[2], slack;
-};
-
-/* In the frame of a patch. Planes' polynomials are off by 2^-8 of it, except for rays from far away and copies. */
-#define QUADRIC_ERROR 0x1p-38
-
 struct leaf {
   /* the box along the leaf: a slab across the normal in its middle, two along its parameters */
   struct leaf_slab slab[3];
   uint32_t patch;
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and the same in v */
-  bool has_quadric;            /* a leaf that is not kept gets its quadric on first use */
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
   struct leaf_parts parts;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
-  struct leaf_quadric quadric;
 };
 
 /* A leaf's slabs in the frame of its tree, which the walk tests before it reads the leaf: floats, one line of the
@@ -209,7 +190,7 @@ static inline struct model_tree *model_inner(const struct model *model, uint32_t
 /* The patch, made in `room` if patches are not kept. */
 struct model_patch *model_patch_at(const struct model *model, uint32_t index, struct patch_room *room);
 
-/* Makes a leaf that is not kept, without its quadric. */
+/* Makes a leaf that is not kept. */
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
 /* How far a patch with `split` auto may be cut (prepare/cut.h). */

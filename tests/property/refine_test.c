@@ -6,7 +6,7 @@
 #include "geometry/edges.h"
 #include "intersect/certificate.h"
 #include "intersect/lanes/nearest.h"
-#include "intersect/lanes/quadric.h"
+#include "intersect/lanes/candidate.h"
 #include "property/world.h"
 #include "quad_root.h"
 #include "worse.h"
@@ -197,18 +197,13 @@ static void aim(struct subject *s, struct random *random, double slant)
   }
 }
 
-/* The root at which the kernel's iteration from there ends, alike on all lanes. Its quadric, over the whole line,
- * may also prove it alone on the leaf. */
+/* The root at which the kernel's iteration from there ends, alike on all lanes. */
 static void solve(struct subject *s, const double start[2], struct leaf_root *out)
 {
   const lanes at[2] = {lanes_all(start[0]), lanes_all(start[1])};
   const lane_mask all = lanes_all(0) == lanes_all(0);
   see(s);
   newton_solve(&s->packet, s->leaf, s->axis, at, all, out);
-  const struct candidate it = {
-    .leaf = s->leaf, .patch = &s->model->patches[s->leaf->patch], .axis = s->axis, .line = &s->packet.line[s->axis]};
-  struct quadric_along along;
-  out->at.alone |= quadric_closes(&along, &it, out, quadric_along(&s->packet, &it, all, &along));
 }
 
 static struct tally refined;
@@ -252,12 +247,20 @@ TEST(proven_roots_are_where_they_are_said_to_be)
   assert_true(alone > 50);
 }
 
+/* Whether a border of the leaf is a point. */
+static bool has_pole(const struct model_patch *patch, const struct leaf *leaf)
+{
+  const uint16_t *split = patch->cut.split;
+  return (patch->pole[0] && leaf->column_u == 0) || (patch->pole[1] && leaf->column_u == split[0] - 1) ||
+         (patch->pole[2] && leaf->column_v == 0) || (patch->pole[3] && leaf->column_v == split[1] - 1);
+}
+
 static struct tally fan_roots;
 
 static void check_fan(struct subject *s, struct random *random)
 {
   static const double slants[] = {2, 0.5, 0.2, 0.1};
-  if (leaf_pole(&s->model->patches[s->leaf->patch], s->leaf) < 0) return;
+  if (!has_pole(&s->model->patches[s->leaf->patch], s->leaf)) return;
   if (random_bits(random) % 4) aim(s, random, slants[random_bits(random) % 4]);
   const double start[2] = {random_between(random, -0.6, 0.6), random_between(random, -0.6, 0.6)};
   struct leaf_root root;
@@ -279,7 +282,6 @@ TEST(roots_next_to_poles_are_alone_where_they_are_said_to_be)
 }
 
 static struct tally leaf_roots;
-static int by_quadric; /* alone by the quadric; the derivatives at the root alone do not prove it */
 static double worst_residual, worst_place, worst_point, worst_tangent;
 
 /* The lengths of the rows of the inverse Jacobian there, as covectors of space. */
@@ -304,11 +306,8 @@ static void check_leaf_root(struct subject *s, struct random *random)
   const int k = s->axis;
   quad u, v;
   if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts.final) return;
-  const double *second = s->leaf->second;
   double size[2];
   row_lengths(s, u, v, size);
-  const double turn = size[0] * (second[0] + second[1]) + size[1] * (second[1] + second[2]);
-  if ((lanes_bits(root.at.alone) & 1) && turn > 2 * CERTIFICATE_ALONE) by_quadric++;
   /* Distance from the ray: one rounding of a coordinate of the patch, of size 1; of the surface's way under the
    * rounding of u and v; and of the bend's. */
   const quad at_u = root.at.u[0], at_v = root.at.v[0];
@@ -335,11 +334,11 @@ TEST(roots_of_leaves_that_bend_little_are_right_to_the_last_places)
 {
   on_leaves(SEED + 2, 0, false, CASES, check_leaf_root);
   on_leaves(SEED + 3, 32, false, CASES / 4, check_leaf_root); /* as many leaves as are cut exactly */
-  print_message("%d proven, %d of them alone, %d by its quadric; at most %.3g of the radius away\n", leaf_roots.exist,
-                leaf_roots.alone, by_quadric, leaf_roots.worst_radius);
+  print_message("%d proven, %d of them alone; at most %.3g of the radius away\n", leaf_roots.exist, leaf_roots.alone,
+                leaf_roots.worst_radius);
   print_message("in roundings: off the ray %.3g, places %.3g, points %.3g, derivatives %.3g\n", worst_residual,
                 worst_place, worst_point, worst_tangent);
-  assert_true(leaf_roots.exist > 100 && leaf_roots.alone > 50 && by_quadric > 10);
+  assert_true(leaf_roots.exist > 100 && leaf_roots.alone > 50);
   assert_int_equal(leaf_roots.outside_radius, 0);
   assert_int_equal(leaf_roots.not_alone, 0);
   assert_true(worst_residual <= 0.5 && worst_place <= 0.5 && worst_point <= 0.5 && worst_tangent <= 0.5);

@@ -74,7 +74,6 @@ static void assert_same_leaf(const struct leaf *a, const struct leaf *b)
   assert_true(a->patch == b->patch && a->column_u == b->column_u && a->column_v == b->column_v);
   SAME(a, b, parts.base);
   SAME(a, b, parts.rest);
-  SAME(a, b, quadric);
   assert_true(a->parts.error == b->parts.error && a->parts.final == b->parts.final);
 }
 

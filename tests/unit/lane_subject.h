@@ -38,8 +38,7 @@ static inline void subject_make(struct random *random, unsigned most_halvings, d
       s->patch.x[k][n / 4][n % 4] = x;
     }
   }
-  leaves_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), 1, &s->leaf);
-  leaf_quadrics(1, &s->leaf);
+  leaf_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), &s->leaf);
 }
 
 /* A point of the leaf, in the frame of its patch. */

@@ -1,9 +1,7 @@
-/* Parts and leaves of patches have the same bits however many are made at once; their bounds, polynomials and boxes
- * hold. */
+/* Leaves are the parts of their patches that they should be; their bounds, polynomials and boxes hold. */
 #include "intersect/prepare/leaf.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"
@@ -12,7 +10,7 @@
 #include "reference/quad.h"
 #include "worse.h"
 
-enum { SEED = 20261123, MOST_LEAVES = 32 * 32 };
+enum { SEED = 20261123 };
 
 static const uint16_t splits[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {16, 16}, {32, 32}, {1, 64}, {64, 1}};
 enum { SPLITS = sizeof splits / sizeof *splits, KINDS = 8 };
@@ -55,57 +53,26 @@ static void for_patches(unsigned long seed, patch_test *test)
   }
 }
 
-static struct leaf *no_leaves(void)
-{
-  struct leaf *leaves = calloc(MOST_LEAVES, sizeof *leaves);
-  assert_non_null(leaves);
-  return leaves;
-}
-
-static void leaves_of_any_company(struct random *random, int kind, const struct model_patch *patch)
-{
-  (void)kind;
-  const size_t count = (size_t)(patch->cut.split[0] * patch->cut.split[1]);
-  struct leaf *together = no_leaves(), *apart = no_leaves();
-  leaves_make(patch, 7, 0, count, together), leaf_quadrics(count, together);
-  for (size_t first = 0, here; first < count; first += here) {
-    here = 1 + random_bits(random) % 20;
-    if (here > count - first) here = count - first;
-    leaves_make(patch, 7, (uint32_t)first, here, apart + first), leaf_quadrics(here, apart + first);
-  }
-  assert_memory_equal(together, apart, count * sizeof *together);
-  for (size_t k = 0; k < count; k++) {
-    leaves_make(patch, 7, (uint32_t)k, 1, &apart[0]), leaf_quadrics(1, &apart[0]);
-    assert_memory_equal(&together[k], &apart[0], sizeof *together);
-    assert_int_equal(together[k].column_u * patch->cut.split[1] + together[k].column_v, k);
-    assert_int_equal(together[k].patch, 7);
-  }
-  free(together);
-  free(apart);
-}
-
-TEST(leaves_do_not_depend_on_their_neighbours) { for_patches(0, leaves_of_any_company); }
-
 /* Coordinates of few bits leave no rest, so both ways of cutting agree exactly. */
 static void leaves_as_cut_one_by_one(struct random *random, int kind, const struct model_patch *patch)
 {
   (void)random;
   if (kind != 5) return;
-  const size_t count = (size_t)(patch->cut.split[0] * patch->cut.split[1]);
-  struct leaf *leaves = no_leaves();
-  leaves_make(patch, 7, 0, count, leaves);
-  for (size_t n = 0; n < count; n++) {
-    const int column[2] = {leaves[n].column_u, leaves[n].column_v};
+  for (int n = 0; n < patch->cut.split[0] * patch->cut.split[1]; n++) {
+    struct leaf leaf;
+    leaf_make(patch, 7, (uint32_t)n, &leaf);
+    const int column[2] = {leaf.column_u, leaf.column_v};
+    assert_int_equal(column[0] * patch->cut.split[1] + column[1], n);
+    assert_int_equal(leaf.patch, 7);
     double range[4];
     for (int k = 0; k < 4; k++) range[k] = (column[k / 2] + k % 2) / (double)patch->cut.split[k / 2];
     for (int k = 0; k < 3; k++) {
       double net[4][4], cut[4][4];
       memcpy(net, patch->x[k], sizeof net);
       patch_subnet(net, range[0], range[1], range[2], range[3], cut);
-      assert_memory_equal(cut, leaves[n].x[k], sizeof cut);
+      assert_memory_equal(cut, leaf.x[k], sizeof cut);
     }
   }
-  free(leaves);
 }
 
 TEST(leaves_are_subnets) { for_patches(1, leaves_as_cut_one_by_one); }
@@ -139,7 +106,7 @@ static void leaf_is_its_part(struct random *random, int kind, const struct model
   for (int n = 0; n < 30; n++) {
     const uint32_t number = (uint32_t)(random_bits(random) % (uint64_t)(patch->cut.split[0] * patch->cut.split[1]));
     struct leaf leaf;
-    leaves_make(patch, 0, number, 1, &leaf);
+    leaf_make(patch, 0, number, &leaf);
     const double u = random_between(random, -LEAF_MARGIN, 1 + LEAF_MARGIN);
     const double v = random_between(random, -LEAF_MARGIN, 1 + LEAF_MARGIN);
     const quad at[2] = {(leaf.column_u + (quad)u) / patch->cut.split[0],
@@ -175,80 +142,6 @@ TEST(leaves_are_their_parts_of_the_patch)
   assert_true(worst_slope <= 1 + 0x1p-40 && worst_slope > 0.5);
 }
 
-/* A point of the exact patch, at (u,v) of the leaf, in terms of its slabs' forms. */
-static void forms_at(const struct quad_net exact[3], const struct model_patch *patch, const struct leaf *leaf, double u,
-                     double v, quad out[3])
-{
-  quad x[3];
-  for (int k = 0; k < 3; k++)
-    x[k] = quad_net_jet(&exact[k], (leaf->column_u + (quad)u) / patch->cut.split[0],
-                        (leaf->column_v + (quad)v) / patch->cut.split[1])
-             .value;
-  for (int q = 0; q < 3; q++) {
-    const struct leaf_slab *slab = &leaf->slab[q];
-    out[q] = slab->g[0] * x[0] + slab->g[1] * x[1] + slab->g[2] * x[2] - slab->offset;
-  }
-}
-
-static quad rest_of(const struct leaf_quadric *of, const quad form[3])
-{
-  const double *c = of->c;
-  const quad y1 = form[1], y2 = form[2];
-  return form[0] - (c[0] + c[1] * y1 + c[2] * y2 + c[3] * y1 * y1 + c[4] * y1 * y2 + c[5] * y2 * y2);
-}
-
-static double worst_off, worst_turn[2]; /* [1]: on the leaf itself */
-static int bounded, turns_bounded;
-
-static void leaf_lies_along_its_quadric(struct random *random, int kind, const struct model_patch *patch)
-{
-  (void)kind;
-  struct quad_net exact[3];
-  exact_nets(patch, exact);
-  for (int n = 0; n < 30; n++) {
-    struct leaf leaf;
-    leaves_make(patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(patch->cut.split[0] * patch->cut.split[1])), 1,
-                &leaf);
-    leaf_quadrics(1, &leaf);
-    const struct leaf_quadric *of = &leaf.quadric;
-    if (isinf(of->off)) continue;
-    bounded++, turns_bounded += !isinf(of->turn[0]);
-    for (int pair = 0; pair < 20; pair++) {
-      const double near = exp2(-(double)(pair % 5));
-      double low = -LEAF_MARGIN, high = 1 + LEAF_MARGIN;
-      double at[2][2];
-      quad form[2][3];
-      for (int k = 0; k < 2; k++) {
-        if (pair % 2) low = 0, high = 1;
-        at[0][k] = random_between(random, low, high),
-        at[1][k] = at[0][k] + near * (random_between(random, low, high) - at[0][k]);
-        if (pair >= 15) at[0][k] = random_bits(random) % 2 ? low : high; /* a corner */
-      }
-      for (int k = 0; k < 2; k++) forms_at(exact, patch, &leaf, at[k][0], at[k][1], form[k]);
-      const quad one = rest_of(of, form[0]), other = rest_of(of, form[1]);
-      if (at[0][0] >= 0 && at[0][0] <= 1 && at[0][1] >= 0 && at[0][1] <= 1)
-        worst_off = worse(worst_off, (double)(quad_abs(one) / of->off));
-      bool within = true;
-      for (int k = 0; k < 4; k++) within &= at[k / 2][k % 2] >= 0 && at[k / 2][k % 2] <= 1;
-      const double *turn = within ? of->turn : of->turn_wide;
-      const quad most = turn[0] * quad_abs(form[0][1] - form[1][1]) + turn[1] * quad_abs(form[0][2] - form[1][2]);
-      if (most > 0) worst_turn[within] = worse(worst_turn[within], (double)(quad_abs(one - other) / most));
-    }
-  }
-}
-
-TEST(leaves_lie_along_their_quadrics)
-{
-  for_patches(3, leaf_lies_along_its_quadric);
-  print_message(
-    "%d leaves with a quadric, %d with one that tells of slopes; of what is allowed the rest takes %.3g, its "
-    "change %.3g, and %.3g next to them\n",
-    bounded, turns_bounded, worst_off, worst_turn[1], worst_turn[0]);
-  assert_true(worst_off <= 1 && worst_off > 0.8);
-  for (int k = 0; k < 2; k++) assert_true(worst_turn[k] <= 1 && worst_turn[k] > 0.5);
-  assert_true(turns_bounded > 200 && bounded > turns_bounded);
-}
-
 /* Second differences in quadruple precision. */
 static quad second(const struct quad_net *net, quad u, quad v, int kind)
 {
@@ -271,7 +164,7 @@ TEST(second_derivative_bounds_hold_and_are_near)
       for (int i = 0; i < 16; i++)
         patch.x[0][i / 4][i % 4] = i / 4, patch.x[1][i / 4][i % 4] = i % 4; /* a height field */
     patch.cut.split[0] = patch.cut.split[1] = 1;
-    leaves_make(&patch, 0, 0, 1, &leaf);
+    leaf_make(&patch, 0, 0, &leaf);
     const double *bound = leaf.second;
     struct quad_net net[3];
     exact_nets(&patch, net);

@@ -26,7 +26,7 @@ static void make_patch(struct random *random, struct subject *s)
       s->patch.x[k][n / 4][n % 4] = along[0][k] * (n / 4 / 1.5 - 1) + along[1][k] * (n % 4 / 1.5 - 1) +
                                     bend * random_between(random, -0.1, 0.1);
   }
-  leaves_make(&s->patch, 0, 0, 1, &s->leaf);
+  leaf_make(&s->patch, 0, 0, &s->leaf);
 }
 
 /* A parameter on either side of the leaf, or in it. */

@@ -63,7 +63,7 @@ static void make_leaf(struct random *random, bool off, struct subject *s)
       s->patch.x[k][n / 4][n % 4] = x;
     }
   }
-  leaves_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), 1, &s->leaf);
+  leaf_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), &s->leaf);
   /* a tree that holds it, not much larger, or far larger */
   s->tree.frame = exp2(ceil(log2(leaf_size(s)))) * power(random, 1, 14);
   for (int k = 0; k < 3; k++)

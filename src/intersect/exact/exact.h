@@ -6,8 +6,7 @@
  *
  * The lanes take a root only where double precision leaves no question: the root is proven, strictly inside its patch,
  * strictly within the ray's range, and not next to another one. Everything they leave open comes here as a list of
- * regions (leaves, or parts of a patch cut for a copy). The order of work: regions.c takes them in the order in which
- * the ray meets them; sight.c writes a patch, as the ray sees it, as nets of integers; search.c halves them (piece.c)
+ * patches. The order of work: judge.c takes them in the order in which the ray meets them; sight.c writes a patch, as the ray sees it, as nets of integers; search.c halves them (piece.c)
  * until each piece has no root or one; judge.c decides what a root means for the answer; all.c and vertex.c count hits.
  *
  * A ray meets a patch in its borders and corners, too. All decisions are exact but these: two roots that the ray meets
@@ -23,13 +22,10 @@
 #include "intersect/intersect.h"
 #include "intersect/model.h"
 
-/* A part of a patch: a rectangle of leaves, of which patch->cut.split make a side of the patch. */
+/* A patch in which the lanes leave something open. */
 struct exact_region {
-  const struct leaf *leaf; /* its leaf; NULL for several, one that is not kept, or a copy without any */
-  uint32_t patch;          /* index into the scene's patches */
-  uint16_t column[2];      /* along u, v: the first one; span: how many */
-  uint16_t span[2];
-  double near; /* nothing open here begins before this t; set unless all hits are asked for */
+  uint32_t patch; /* index into the scene's patches */
+  double near;    /* nothing open here begins before this t; set unless all hits are asked for */
 };
 
 /* A proven root, in parameters of the whole patch: the exact ray has exactly one root within the radii. */
@@ -53,23 +49,13 @@ static inline bool exact_root_placed(const struct exact_root *root)
   return root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
 }
 
-static inline bool exact_region_equal(const struct exact_region *a, const struct exact_region *b)
-{
-  return a->patch == b->patch && a->column[0] == b->column[0] && a->column[1] == b->column[1] &&
-         a->span[0] == b->span[0] && a->span[1] == b->span[1];
-}
-
-/* regions.c: extends the region to the least rectangle of leaves that holds both; both are of one patch. */
-void exact_region_join(struct exact_region *region, const struct exact_region *other);
-
 /* A place that may be a hit or not: a point of a patch, its t, and how far off that t may be. */
 struct exact_maybe {
   uint32_t patch;
   double u, v, t, t_error;
 };
 
-/* The most regions of a ray whose nearest hit is asked for. If there are more, each patch has one; of still more
- * patches, those that begin first are listed. */
+/* The most regions of a ray whose nearest hit is asked for; of more, those that begin first are listed. */
 enum { EXACT_REGIONS_MAX = 128 };
 
 /* What a search finds on a ray. */
@@ -99,7 +85,7 @@ struct exact_case {
   const struct ray *ray;           /* direction scaled to about 1 */
   const struct exact_root *known;  /* the nearest root that the lanes took; NULL for none */
   const struct exact_maybe *maybe; /* the same if it is not proven; NULL for none */
-  struct exact_region *regions;    /* in any order; the call reorders and joins them */
+  struct exact_region *regions; /* in any order; the call reorders them. For all hits a patch may stand there twice */
   size_t region_count;
   double cut_from; /* neither what was left out nor a doubt begins before this t; infinite for none */
   uint64_t *work;  /* the work done is added, in pieces examined (judge.h) */
@@ -116,6 +102,7 @@ struct exact_decision {
   enum exact_verdict verdict;
   bool sure;                /* proven; never so for a maybe */
   struct exact_root root;   /* set with EXACT_ROOT */
+  bool known;               /* with EXACT_ROOT: it is the case's known one, and alone at its t */
   struct exact_maybe maybe; /* set with EXACT_MAYBE */
 };
 

@@ -1,6 +1,8 @@
 /* Turns what is found on one ray into its answer: which root is nearest, and whether that is proven. */
 #include "intersect/exact/judge.h"
 
+#include <stdlib.h>
+
 #include "base/real.h"
 
 void judge_turn(struct judge *j, uint32_t patch)
@@ -126,6 +128,7 @@ void judge_root(struct judge *j, const struct exact_root *root)
   if (j->hit && judge_same(j, &j->nearest, &here, &sure)) return;
   const int order = j->hit ? judge_compare(j, &j->nearest, &here, &sure) : 1;
   if (!sure) judge_undecided(j, real_min(least_t(&j->nearest), least_t(&here)));
+  j->known &= order < 0; /* of two at one t either may be the one that the lanes come to */
   if (order > 0 || (order == 0 && judge_stands_before(&here, &j->nearest))) j->nearest = here, j->hit = true;
   set_limit(j);
 }
@@ -165,20 +168,76 @@ void judge_left(struct judge *j, double near, double far)
   j->cut_short |= far > j->asked->ray->t_min;
 }
 
+/* ---- regions ---- */
+
+static int by_patch(const void *a, const void *b)
+{
+  const struct exact_region *x = a, *y = b;
+  return x->patch < y->patch ? -1 : x->patch > y->patch;
+}
+
+static int by_distance(const void *a, const void *b)
+{
+  const struct exact_region *x = a, *y = b;
+  return x->near != y->near ? (x->near < y->near ? -1 : 1) : by_patch(a, b);
+}
+
+/* Sorts the regions, each patch once. Returns how many there are. */
+static size_t sort_regions(struct exact_region regions[], size_t count, bool all)
+{
+  size_t kept = 0;
+  if (count > 1) qsort(regions, count, sizeof *regions, all ? by_patch : by_distance);
+  for (size_t k = 0; k < count; k++)
+    if (kept == 0 || regions[kept - 1].patch != regions[k].patch) regions[kept++] = regions[k];
+  return kept;
+}
+
+/* A region gets its share of the work that is left, or this much, so that one in which the ray lies leaves some for the
+ * others: what a ray next to a tangency takes. */
+enum { LEAST_SHARE = 512 };
+
+/* Whether the patch is met where the known root is, which is of an earlier patch of the same surface. */
+static bool is_met_behind(const struct judge *j, uint32_t patch)
+{
+  const struct exact_root *known = j->all ? NULL : j->asked->known;
+  const uint32_t *surface = j->asked->model->surface;
+  return known && surface && surface[patch] != 0 && surface[patch] == surface[known->patch] && known->patch < patch;
+}
+
+/* Searches the case's regions, the first that the ray meets first. */
+static void search(struct judge *j)
+{
+  struct exact_region *regions = j->asked->regions;
+  const size_t count = sort_regions(regions, j->asked->region_count, j->all);
+  for (size_t k = 0; k < count && (j->all || regions[k].near <= j->limit); k++) {
+    const int all = j->work, fair = (int)((size_t)real_max(all, 0) / (count - k));
+    if (is_met_behind(j, regions[k].patch)) continue;
+    const int share = fair > LEAST_SHARE ? fair : all < LEAST_SHARE ? all : LEAST_SHARE;
+    if (all <= 0) {
+      judge_left(j, regions[k].near, INFINITY);
+      continue;
+    }
+    j->work = share;
+    judge_turn(j, regions[k].patch);
+    exact_search(j, regions[k].near);
+    j->work = all - share + j->work;
+  }
+}
+
 /* ---- the case ---- */
 
 void judge_run(struct judge *j, const struct exact_case *asked, enum judge_asks asks, struct exact_list *list)
 {
   j->asked = asked, j->list = list, j->all = asks == JUDGE_ALL, j->any = asks == JUDGE_ANY;
-  j->hit = j->doubtful = j->cut_short = j->doubt = false;
+  j->hit = j->known = j->doubtful = j->cut_short = j->doubt = false;
   j->work = (int)asked->limit, j->undecided = INFINITY, j->patch = UINT32_MAX;
   if (!j->all) {
     j->undecided = asked->cut_from;
-    if (asked->known) j->nearest = *asked->known, j->hit = true;
+    if (asked->known) j->nearest = *asked->known, j->hit = j->known = true;
   }
   set_limit(j);
   if (!j->all && asked->maybe) keep_maybe(j, asked->maybe, asked->maybe->t);
-  regions_search(j);
+  search(j);
 }
 
 void exact_closest(const struct exact_case *asked, struct exact_decision *out)
@@ -189,7 +248,7 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
   const double to = j.hit ? most_t(&j.nearest) : INFINITY;
   *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = j.undecided > to || j.undecided == INFINITY};
   if (j.doubtful && !(j.hit && j.nearest.t <= j.maybe.t)) out->verdict = EXACT_MAYBE, out->maybe = j.maybe;
-  else if (j.hit) out->verdict = EXACT_ROOT, out->root = j.nearest;
+  else if (j.hit) out->verdict = EXACT_ROOT, out->root = j.nearest, out->known = j.known;
 }
 
 bool exact_occluded(const struct exact_case *asked)

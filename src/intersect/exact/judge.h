@@ -1,6 +1,6 @@
 /* The case of one ray: what a search finds, and what it means for the answer.
  *
- * Internal to src/intersect/exact. Layers: piece, sight, search; then regions and judge; then vertex and all.
+ * Internal to src/intersect/exact. Layers: piece, sight, search; then judge; then vertex and all.
  */
 #ifndef PSCN_INTERSECT_EXACT_JUDGE_H
 #define PSCN_INTERSECT_EXACT_JUDGE_H
@@ -22,6 +22,7 @@ struct judge {
   struct exact_list *list; /* gets all that is found, if all hits are asked for */
   bool hit;                /* `nearest` is set: the nearest of the certain roots */
   struct exact_root nearest;
+  bool known;    /* which is the one that the lanes took, and alone at its t */
   bool doubtful; /* `maybe` is set: the nearest of the places that may be hits */
   struct exact_maybe maybe;
   bool cut_short;   /* something is left for want of work, beyond the ray's start */
@@ -53,13 +54,9 @@ void judge_run(struct judge *j, const struct exact_case *asked, enum judge_asks 
 /* Makes the patch the current one. */
 void judge_turn(struct judge *j, uint32_t patch);
 
-/* regions.c: searches the case's regions. Reorders them: if the nearest hit is asked for, the ray meets the first ones
- * first. */
-void regions_search(struct judge *j);
-
-/* search.c: reports every root in the region that is nearer than `limit`, and every place that cannot be decided. The
- * region's patch must be the current one. */
-void search_region(struct judge *j, const struct exact_region *region);
+/* search.c: reports every root of the current patch that is nearer than `limit`, and every place that cannot be decided.
+ * All of them begin at `near` or behind. */
+void exact_search(struct judge *j, double near);
 
 /* A t as near as this, relatively, rounds to a double next to it. */
 #define LAST_PLACES 0x1p-58

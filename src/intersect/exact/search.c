@@ -1,4 +1,4 @@
-/* Finds all that a ray hits in a region of a patch, by dividing pieces of it until each has no root or one (piece.h).
+/* Finds all that a ray hits in a patch, by dividing pieces of it until each has no root or one (piece.h).
  *
  * The piece that begins first along the ray is next; those behind the nearest hit so far are dropped. Where two roots
  * are one, or a patch lies along the ray, pieces become as small as LEAST_SIZE and are reported as undecided.
@@ -194,35 +194,7 @@ static void search_run(struct judge *j, struct waiting waiting[], int count)
   }
 }
 
-/* ---- regions ---- */
-
-/* Columns of leaves as a part [from, to] / 2^log2 that holds them. */
-struct cells {
-  limb from, to;
-  int log2;
-};
-
-static struct cells cells_of(unsigned column, unsigned span, unsigned split)
-{
-  int log2 = 0;
-  while (1u << log2 < split) log2++;
-  if (split & (split - 1)) log2 += 6;
-  const limb of = (limb)1 << log2;
-  return (struct cells){column * of / split, ((column + span) * of + split - 1) / split, log2};
-}
-
-static bool region_begin(struct judge *j, const struct exact_region *region, struct piece *whole, struct waiting *out)
-{
-  struct piece half;
-  const uint16_t *split = j->asked->model->cuts[region->patch].split;
-  for (int k = 0; k < 2; k++) {
-    const struct cells at = cells_of(region->column[k], region->span[k], split[k]);
-    if (!piece_part(k ? &half : whole, k, at.from, at.to, at.log2, &j->pool, k ? &out->piece : &half)) return false;
-  }
-  out->keep = j->pool.used;
-  set_reach(j, out);
-  return true;
-}
+/* ---- patches ---- */
 
 /* A border all of whose points are on the ray: a pole, which is hit there, or a line along the ray. */
 static void report_met(struct judge *j, int border)
@@ -261,24 +233,23 @@ static bool out_of_range(const struct judge *j)
   return depth.error == 0 && place_in_range(j, &depth) != PLACE_IN;
 }
 
-void search_region(struct judge *j, const struct exact_region *region)
+void exact_search(struct judge *j, double near)
 {
   struct waiting waiting[WAITING_MAX];
-  const size_t before = j->pool.used;
   int count = 0;
-  bool room = j->seen;
-  if (room && out_of_range(j)) return;
-  for (int k = -1; k < j->sight.borders && room; k++) {
-    waiting[count] = (struct waiting){.border = k};
-    room = region_begin(j, region, k < 0 ? &j->sight.off : &j->sight.border[k].on, &waiting[count]);
-    if (room && (k < 0 || waiting[count].piece.borders >> j->sight.border[k].border & 1)) count++;
+  if (!j->seen) {
+    judge_left(j, near, INFINITY);
+    return;
   }
-  if (room) {
-    for (int k = 0; k < 4; k++)
-      if (j->sight.met & waiting[0].piece.borders & 1u << k) report_met(j, k);
-    search_run(j, waiting, count);
-  } else {
-    judge_left(j, region->near, INFINITY);
+  if (out_of_range(j)) return;
+  const size_t before = j->pool.used;
+  for (int k = -1; k < j->sight.borders; k++) {
+    waiting[count] = (struct waiting){
+      .piece = k < 0 ? j->sight.off : j->sight.border[k].on, .keep = j->pool.used, .border = k};
+    set_reach(j, &waiting[count++]);
   }
+  for (int k = 0; k < 4; k++)
+    if (j->sight.met & 1u << k) report_met(j, k);
+  search_run(j, waiting, count);
   j->pool.used = before;
 }

@@ -8,9 +8,32 @@
 
 #include "intersect/lanes/view.h"
 
+/* For any hit: leaves that are deferred until all others have been tried. These are leaves that rays start in, and
+ * seldom hit. A ray that has found a hit by then need not be tried on them. */
+enum { MOST_LATER = 32 };
+struct later {
+  unsigned count;
+  struct {
+    uint32_t leaf;
+    unsigned rays; /* as bits, of all packets of the bundle */
+  } at[MOST_LATER];
+};
+
+/* Defers the leaf for these rays. Returns false if there is no room. */
+static inline bool later_add(struct later *later, uint32_t leaf, unsigned rays)
+{
+  unsigned k = 0;
+  while (k < later->count && later->at[k].leaf != leaf) k++;
+  if (k == MOST_LATER) return false;
+  if (k == later->count) later->at[later->count++].leaf = leaf, later->at[k].rays = 0;
+  later->at[k].rays |= rays;
+  return true;
+}
+
 struct bundle {
   struct packet packet[PACKETS];
   int packets; /* those that are not empty */
+  bool defers; /* leaves to `later` */
   struct later later;
   struct view view;
   unsigned live; /* bit k: ray k still seeks a hit */
@@ -62,19 +85,11 @@ LANES_INLINE bool ray_charge(struct bundle *b, unsigned lane)
   return false;
 }
 
-/* Sets whether leaves are deferred from here on. */
-LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
-{
-  b->later.count = 0;
-  for (int h = 0; h < b->packets; h++)
-    b->packet[h].later = later ? &b->later : NULL, b->packet[h].first_ray = (unsigned)h * LANES;
-}
-
 /* Defers the leaf for packets all of whose rays start in its slab. Returns the rays to be tried on it now. */
 LANES_INLINE unsigned bundle_defer(struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
-  if (!b->packet[0].later || index >= model->leaf_count) return rays;
+  if (!b->defers || index >= model->leaf_count) return rays;
   const unsigned others = rays & ~view_starts(&b->view, &model->oriented[index]);
   unsigned now = 0;
   for (int h = 0; h < PACKETS; h++) {

@@ -24,13 +24,6 @@ static bool starts_bilinear(const struct candidate *it)
   return turn_of(it->leaf->second) <= BENT_TURN * real_min(first[0], first[1]);
 }
 
-/* Defers the leaf, if leaves are deferred. Returns the lanes that go on now. */
-static lane_mask candidate_defer(struct packet *p, const struct candidate *it, lane_mask open)
-{
-  const bool later = p->later && later_add(p->later, (uint32_t)it->number, lanes_bits(open) << p->first_ray);
-  return later ? (lane_mask){0} : open;
-}
-
 /* A scene with `polish off` wants the roots as its solver finds them. There only the slab closes a leaf before
  * that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
@@ -44,10 +37,6 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (starts_bilinear(it)) {
     entered[STAGE_BILINEAR] += lanes_count(open);
     open = stage_bilinear(p, it, open);
-    if (!lanes_any(open)) return;
-    open = stage_quadric(p, it, open);
-    if (!lanes_any(open)) return;
-    open = candidate_defer(p, it, open);
     if (!lanes_any(open)) return;
   }
   packet_charge(p, open & COST_PLANES);

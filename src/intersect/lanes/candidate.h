@@ -16,7 +16,7 @@ enum { RESULTANT_MAX_DEGREE = 18 };
 /* What the stages pass on to later ones, in the order in which they set it. */
 struct candidate {
   /* packet_leaf: */
-  struct leaf *leaf;               /* constant, except that a leaf without a quadric, the tracer's own, may get one */
+  const struct leaf *leaf;
   const struct model_patch *patch; /* the leaf's */
   int64_t number;                  /* the leaf's, in its model */
   int axis;
@@ -47,10 +47,6 @@ lanes slab_begin(const struct packet *p, const struct candidate *it);
 /* bilinear.c: finds the root of the leaf's bilinear part by a resultant of degree 2, and refines it by Newton's method
  * on the leaf. A lane stays open if the ray is so slanted that the root is not proven to be the only one. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
-
-/* quadric.c: closes lanes where the leaf's quadric proves that there is no root, or none besides that of
- * stage_bilinear. */
-lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open);
 
 /* planes.c: sets the plane polynomials a and b. */
 void planes_set(struct candidate *it);

@@ -32,6 +32,18 @@ static bool cover(const struct piece_ray *ray, struct piece stack[COVER_HALVINGS
   return true;
 }
 
+/* The leaf's first border (geometry/edges.h) that is a pole, or -1. */
+static int leaf_pole(const struct model_patch *patch, const struct leaf *leaf)
+{
+  const uint16_t *split = patch->cut.split;
+  const bool *pole = patch->pole;
+  return pole[0] && leaf->column_u == 0              ? 0
+         : pole[1] && leaf->column_u == split[0] - 1 ? 1
+         : pole[2] && leaf->column_v == 0            ? 2
+         : pole[3] && leaf->column_v == split[1] - 1 ? 3
+                                                     : -1;
+}
+
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2])
 {

@@ -76,8 +76,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
     exact_maybe_hit(p->model, &p->rays[lane], &decision.maybe, out);
     return true;
   }
-  if (!root->sharp && wanted.known && root->patch == known.patch && root->u == known.u && root->v == known.v)
-    return false;
+  if (decision.known) return false;
   exact_root_hit(p->model, &p->rays[lane], root, !(packet_doubt(p) >> lane & 1), out);
   return true;
 }
@@ -162,14 +161,14 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   return write_hits(p, group, &a, out);
 }
 
-/* Finishes the lanes of `group`. Their best roots are on one patch, their rays share an axis, and the roots are all
- * near the rays' starts, or none is. */
-static unsigned finish_group(const struct packet *p, unsigned group, int axis, struct model_patch *patch, bool near,
+/* Finishes the lanes of `group`. Their best roots are on one patch, and their rays share an axis. */
+static unsigned finish_group(const struct packet *p, unsigned group, int axis, const struct model_patch *patch,
                              struct hit out[])
 {
   const struct best *best = &p->best;
   struct last_step step;
-  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction, step.near = near;
+  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
+  step.near = packet_nearer(p, patch, NEAR_START, best->t);
   step.improves = lanes_mask(group) & best->certain;
   step.u = lanes_clamp(best->u, 0, 1), step.v = lanes_clamp(best->v, 0, 1), step.t = best->t;
   last_step_take(&step);
@@ -223,10 +222,7 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
     const int64_t patch = p->best.patch[first];
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
     struct patch_room room;
-    struct model_patch *of = model_patch_at(p->model, (uint32_t)patch, &room);
-    const unsigned near = group & lanes_bits(packet_nearer(p, of, NEAR_START, p->best.t));
-    if (group != near) grazing += finish_group(p, group & ~near, axis, of, false, out);
-    if (near) grazing += finish_group(p, near, axis, of, true, out);
+    grazing += finish_group(p, group, axis, model_patch_at(p->model, (uint32_t)patch, &room), out);
     left &= ~group;
   }
   return grazing;

@@ -59,13 +59,11 @@ void gather_best(struct packet *p, lane_mask taken)
   forget_best(p, taken);
 }
 
-void gather_postpone(struct gather *gather, const struct exact_region *region, unsigned on)
+void gather_postpone(struct gather *gather, uint32_t patch, unsigned lane)
 {
-  for (unsigned bits = on; bits; bits &= bits - 1) {
-    struct gathered_region *open = growing_add(&gather->open, 1, sizeof *open);
-    if (!open) gather->failed = true;
-    else *open = (struct gathered_region){*region, (unsigned)__builtin_ctz(bits)};
-  }
+  struct gathered_region *open = growing_add(&gather->open, 1, sizeof *open);
+  if (!open) gather->failed = true;
+  else *open = (struct gathered_region){{.patch = patch}, lane};
 }
 
 /* ---- which hits there are ---- */

@@ -29,8 +29,8 @@ void gather_start(struct packet *p, struct gather *gather);
  * best again. */
 void gather_best(struct packet *p, lane_mask taken);
 
-/* Leaves a region to the last resort on these lanes, given as bits. */
-void gather_postpone(struct gather *gather, const struct exact_region *region, unsigned on);
+/* Leaves a patch of the scene to the last resort on that lane. */
+void gather_postpone(struct gather *gather, uint32_t patch, unsigned lane);
 
 /* Writes the lists of the packet's rays, except for `hits`: these are added to tracer->hits, one list after the other.
  * t is multiplied by 2^-exponents[lane] if `exponents` is not NULL. Returns whether there was memory. */

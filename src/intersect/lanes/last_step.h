@@ -14,7 +14,7 @@ struct last_step {
   const struct model_patch *patch;
   int axis;
   const lanes *origin, *direction; /* [3] */
-  bool near;                       /* roots near the rays' starts: they need more digits */
+  lane_mask near;                  /* roots near the rays' starts: they need more digits */
   lane_mask improves;              /* the others keep their u, v and t */
   lanes u, v, t;                   /* in and out */
   lanes point[3], normal[3];       /* out: in the patch's frame; the normal of unit length and either sense */
@@ -23,7 +23,7 @@ struct last_step {
 };
 
 /* Improves the lanes of `improves`, and sets point and normal of all lanes. A lane whose steps do not end within the
- * patch's size keeps its u, v and t. T is right to 2^-72 of the patch's frame, near the start to 2^-100, and then
+ * patch's size keeps its u, v and t. T is right to 2^-80 of the patch's frame, on lanes of `near` to 2^-100, and then
  * rounded once. */
 void last_step_take(struct last_step *l);
 

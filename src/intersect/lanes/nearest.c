@@ -22,59 +22,49 @@ void packet_exhaust(struct packet *p, unsigned exhausted)
 
 /* Leaves out the one that begins last, of the patches on the full list and one more. From then on, what begins there or
  * behind is left out. So, in whatever order they come, cut_from is where the first one without room begins. */
-static void leave_out_last(struct postponed *to, unsigned lane, const struct exact_region *region)
+static void leave_out_last(struct postponed *to, unsigned lane, struct exact_region region)
 {
   struct exact_region *last = to->region[lane];
   for (unsigned k = 1; k < EXACT_REGIONS_MAX; k++)
     if (to->region[lane][k].near > last->near) last = &to->region[lane][k];
-  to->cut_from[lane] = real_max(last->near, region->near);
-  if (region->near < last->near) *last = *region;
+  to->cut_from[lane] = real_max(last->near, region.near);
+  if (region.near < last->near) *last = region;
 }
 
-/* Adds the region to that of its patch, or to the list. */
-static void list_region(struct postponed *to, unsigned lane, const struct exact_region *region)
+/* Adds the region to the list, or to that of its patch. */
+static void list_region(struct postponed *to, unsigned lane, struct exact_region region)
 {
   const unsigned count = to->count[lane];
   struct exact_region *list = to->region[lane];
   for (unsigned k = 0; k < count; k++) {
-    if (list[k].patch != region->patch) continue;
-    exact_region_join(&list[k], region);
+    if (list[k].patch != region.patch) continue;
+    list[k].near = real_min(list[k].near, region.near);
     return;
   }
-  if (count < EXACT_REGIONS_MAX) list[to->count[lane]++] = *region;
+  if (count < EXACT_REGIONS_MAX) list[to->count[lane]++] = region;
   else leave_out_last(to, lane, region);
 }
 
-/* Postpones the region, in which what is open begins at `near`. What begins at a list's cut_from or behind is
+/* Postpones the patch of the scene, in which what is open begins at `near`. What begins at a list's cut_from or behind is
  * ignored. */
-static void postpone(struct packet *p, const struct exact_region *region, lanes near, lane_mask open)
+static void postpone(struct packet *p, uint32_t patch, lanes near, lane_mask open)
 {
   struct postponed *to = p->postponed;
   if (p->outer) near = (p->shift + near) - 4 * UNIT_ROUNDOFF * (lanes_abs(p->shift) + lanes_abs(near));
   near = lanes_max(near, lanes_all(-INFINITY)); /* or not a number */
   if (!p->gather) open &= ~(near >= to->cut_from);
   p->tracer->counts.escalated += lanes_count(open);
-  if (p->gather) {
-    gather_postpone(p->gather, region, lanes_bits(open));
-    return;
-  }
-  to->open |= lanes_bits(open);
+  if (!p->gather) to->open |= lanes_bits(open);
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    struct exact_region here = *region;
-    here.near = near[lane];
-    list_region(to, lane, &here);
+    if (p->gather) gather_postpone(p->gather, patch, lane);
+    else list_region(to, lane, (struct exact_region){patch, near[lane]});
   }
 }
 
 void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open)
 {
-  const struct leaf *leaf = it->leaf;
-  const struct exact_region region = {.leaf = p->outer || !p->model->leaves ? NULL : leaf,
-                                      .patch = packet_patch(p, leaf),
-                                      .column = {leaf->column_u, leaf->column_v},
-                                      .span = {1, 1}};
-  postpone(p, &region, slab_begin(p, it), open);
+  postpone(p, packet_patch(p, it->leaf), slab_begin(p, it), open);
 }
 
 void packet_postpone_best(struct packet *p, lane_mask open)
@@ -82,9 +72,7 @@ void packet_postpone_best(struct packet *p, lane_mask open)
   const struct best *best = &p->best;
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    struct exact_region region = {.patch = (uint32_t)best->patch[lane]};
-    memcpy(region.span, p->outer->model->cuts[region.patch].split, sizeof region.span);
-    postpone(p, &region, best->t - (p->t_far - best->t), lanes_mask(1u << lane));
+    postpone(p, (uint32_t)best->patch[lane], best->t - (p->t_far - best->t), lanes_mask(1u << lane));
   }
 }
 

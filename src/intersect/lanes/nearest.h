@@ -48,28 +48,10 @@ LANES_INLINE lane_mask inside(const struct newton_root *r)
          (r->v - 1 <= r->radius_v);
 }
 
-/* The leaf's first border (geometry/edges.h) that is a pole, or -1. */
-LANES_INLINE int leaf_pole(const struct model_patch *patch, const struct leaf *leaf)
-{
-  const uint16_t *split = patch->cut.split;
-  const bool *pole = patch->pole;
-  return pole[0] && leaf->column_u == 0              ? 0
-         : pole[1] && leaf->column_u == split[0] - 1 ? 1
-         : pole[2] && leaf->column_v == 0            ? 2
-         : pole[3] && leaf->column_v == split[1] - 1 ? 3
-                                                     : -1;
-}
-
-/* How far a point of the surface moves at most within the radii of a root. Along a pole's border, the derivative is no
- * more than the mixed one times the distance from the pole. */
+/* How far a point of the surface moves at most within the radii of a root. */
 LANES_INLINE lanes root_reach(const struct candidate *it, const struct newton_root *r)
 {
-  const struct leaf *leaf = it->leaf;
-  const lanes radius[2] = {r->radius_u, r->radius_v};
-  const int border = leaf_pole(it->patch, leaf), d = border / 2;
-  if (border < 0) return leaf->first[0] * radius[0] + leaf->first[1] * radius[1];
-  const lanes at = d ? r->v : r->u, away = lanes_abs(border & 1 ? 1 - at : at) + radius[d];
-  return leaf->first[d] * radius[d] + lanes_min(lanes_all(leaf->first[1 - d]), leaf->second[1] * away) * radius[1 - d];
+  return it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v;
 }
 
 /* Postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it (exact.h). */

@@ -2,7 +2,8 @@
  *
  * Compiled once per instruction set, without contraction. The surface is evaluated as the sum of the leaf's parts
  * (model.h), and the planes' residuals keep what their leading terms lose to rounding. So Newton's method ends at a
- * root that is right to the rounding of the bend of its leaf. Point and normal come from the last evaluation.
+ * root that is right to the rounding of the bend of its leaf. Point and normal come from one more
+ * evaluation, at the root.
  * Parameters are s = u - 1/2 and t = v - 1/2.
  */
 #include <math.h>
@@ -80,38 +81,6 @@ __attribute__((noinline)) static void surface_of_many(const struct leaf_parts *p
   for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts, c, &at);
 }
 
-/* Second derivatives of a coordinate. */
-struct curvature {
-  lanes ss, st, tt;
-};
-
-LANES_INLINE struct curvature curvature_at(const struct leaf_parts *parts, int c, lanes s, lanes t)
-{
-  struct curvature x = {{0}, {0}, {0}};
-#pragma GCC unroll 4
-  for (int i = 3; i >= 0; i--) {
-    const double(*r)[3] = parts->rest + 4 * i;
-    const lanes last = term(r[3], c), square = term(r[2], c), linear = term(r[1], c);
-    const lanes cubic = 3 * last, cubic_t = cubic * t;
-    if (i >= 2) {
-      lanes row = lanes_multiply_add(last, t, square);
-      row = lanes_multiply_add(lanes_multiply_add(row, t, linear), t, term(r[0], c));
-      x.ss = lanes_multiply_add(x.ss, s, i * (i - 1) * row);
-    }
-    if (i >= 1) x.st = lanes_multiply_add(x.st, s, i * lanes_multiply_add(cubic_t + 2 * square, t, linear));
-    x.tt = lanes_multiply_add(x.tt, s, cubic_t + square);
-  }
-  x.st += term(parts->base[3], c), x.tt *= 2;
-  return x;
-}
-
-/* Out of line, as surface_of_many. */
-__attribute__((noinline)) static void curvatures_of_many(const struct leaf_parts *parts, lanes s, lanes t,
-                                                         struct curvature out[3])
-{
-  for (int c = 0; c < 3; c++) out[c] = curvature_at(parts, c, s, t);
-}
-
 /* The lanes whose points are wanted, as bits, if they are so few that a point's coordinates are computed side by side;
  * otherwise 0, for lane by lane. Each coordinate takes the same operations, and gets the same bits. */
 LANES_INLINE unsigned few_lanes(lane_mask active)
@@ -137,37 +106,6 @@ LANES_INLINE void surface_at(const struct leaf_parts *parts, lanes s, lanes t, u
   (void)few;
 #endif
   surface_of_many(parts, s, t, out);
-}
-
-LANES_INLINE void curvatures_at(const struct leaf_parts *parts, lanes s, lanes t, unsigned few, struct curvature out[3])
-{
-#if LANE_POINTS > 0
-  if (few) {
-    const struct lane_points points = lane_points_of(few);
-    const struct curvature all = curvature_at(parts, SIDE_BY_SIDE, lane_points_spread(&points, s),
-                                              lane_points_spread(&points, t));
-    for (int c = 0; c < 3; c++) {
-      out[c].ss = lane_points_collect(&points, all.ss, c), out[c].st = lane_points_collect(&points, all.st, c);
-      out[c].tt = lane_points_collect(&points, all.tt, c);
-    }
-    return;
-  }
-#else
-  (void)few;
-#endif
-  curvatures_of_many(parts, s, t, out);
-}
-
-/* Moves the derivatives from (s,t) by (to_s,to_t), by second derivatives. */
-LANES_INLINE void surface_turn(const struct leaf_parts *parts, lanes s, lanes t, lanes to_s, lanes to_t,
-                               lane_mask where, struct coordinate x[3])
-{
-  struct curvature h[3];
-  curvatures_at(parts, s, t, few_lanes(where), h);
-  for (int c = 0; c < 3; c++) {
-    x[c].ds = lanes_select(where, x[c].ds + (h[c].ss * to_s + h[c].st * to_t), x[c].ds);
-    x[c].dt = lanes_select(where, x[c].dt + (h[c].st * to_s + h[c].tt * to_t), x[c].dt);
-  }
 }
 
 /* ---- the planes ---- */
@@ -285,8 +223,6 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
   if (p->any) return;
   const double second = leaf->second[0] + 2 * leaf->second[1] + leaf->second[2];
   out->left = (0.5 * second * step + DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (leaf->first[0] + leaf->first[1])) * step;
-  for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo - (x[c].ds * step_s + x[c].dt * step_t));
-  const lane_mask turned = settled & (step > parts->slope_step);
-  if (lanes_any(turned)) surface_turn(parts, s, t, -step_s, -step_t, turned, x);
-  for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
+  surface_at(parts, s - step_s, t - step_t, few, x);
+  for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + x[c].lo, out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
 }

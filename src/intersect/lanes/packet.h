@@ -23,8 +23,8 @@ LANES_INLINE void fetch(const void *from, size_t size)
   for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch((const char *)from + at);
 }
 
-/* Roots nearer to the ray's start than this part of their patch's frame need more digits than the last step gives,
- * 2^-72 of the frame. All roots of rays between small things on a wide floor are as near. */
+/* Roots nearer to the ray's start than this part of their patch's frame need more digits than their leaf gives. All roots
+ * of rays between small things on a wide floor are as near. */
 #define NEAR_START 0x1p-16
 
 /* The last step on control points relative to the start, right to 2^-100, is enough for roots as near as this. */
@@ -64,29 +64,6 @@ struct postponed {
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
-/* For any hit: leaves that are deferred until all others have been tried. These are leaves that rays start in, and
- * seldom hit, and leaves that only expensive stages decide. A ray that has found a hit by then need not be tried on
- * them. */
-enum { MOST_LATER = 32 };
-struct later {
-  unsigned count;
-  struct {
-    uint32_t leaf;
-    unsigned rays; /* as bits, of all packets of the bundle */
-  } at[MOST_LATER];
-};
-
-/* Defers the leaf for these rays. Returns false if there is no room. */
-static inline bool later_add(struct later *later, uint32_t leaf, unsigned rays)
-{
-  unsigned k = 0;
-  while (k < later->count && later->at[k].leaf != leaf) k++;
-  if (k == MOST_LATER) return false;
-  if (k == later->count) later->at[later->count++].leaf = leaf, later->at[k].rays = 0;
-  later->at[k].rays |= rays;
-  return true;
-}
-
 struct packet {
   struct tracer *tracer;
   const struct model *model;
@@ -97,8 +74,6 @@ struct packet {
   const struct model_copy *copy;          /* if so, the object's copy */
   lanes shift;                            /* if so, t of the scene is shift + t */
   bool any;                               /* any hit will do */
-  struct later *later;                    /* where leaves are deferred to; NULL: they are not, or no longer */
-  unsigned first_ray;                     /* the bit of lane 0 in its `rays` */
   struct gather *gather;                  /* all hits are wanted, and gathered here; else NULL */
   lanes t_end;                            /* if so, the value of t_far, except while a root is taken */
   bool moved;                             /* live or t_far has changed */

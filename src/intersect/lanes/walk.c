@@ -24,7 +24,7 @@ static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigne
   inner.packets = 0;
   for (struct packet *p = b->packet; active; p++, active >>= LANES)
     if (active & ALL_LANES) packet_enter(p, copy, lanes_mask(active & ALL_LANES), &inner.packet[inner.packets++]);
-  bundle_set_later(&inner, b->packet[0].any);
+  inner.defers = b->packet[0].any, inner.later.count = 0;
   bundle_start(&inner, &copy->object->model->tree);
   bundle_walk_all(&inner, copy->object->model);
   for (int h = 0; h < inner.packets; h++) packet_leave(&inner.packet[h]);
@@ -273,7 +273,7 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 static void bundle_walk_all(struct bundle *b, const struct model *model)
 {
   bundle_walk(b, &model->tree, b->live);
-  for (int h = 0; h < b->packets; h++) b->packet[h].later = NULL;
+  b->defers = false;
   for (unsigned k = 0; k < b->later.count; k++) {
     const unsigned rays = b->later.at[k].rays & b->live;
     if (rays) bundle_leaf(b, b->later.at[k].leaf, rays);
@@ -293,7 +293,7 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
     const size_t left = count - h * LANES;
     packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any, budget);
   }
-  bundle_set_later(b, any);
+  b->defers = any, b->later.count = 0;
   bundle_start(b, &tracer->model->tree);
 }
 

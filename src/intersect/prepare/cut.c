@@ -14,12 +14,11 @@
 
 #include "base/memory.h"
 #include "base/real.h"
-#include "intersect/exact/exact.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
 
-/* All leaves of a row may lie in the plane of a ray, and the last resort must have room for them. */
-enum { SIDE_MOST = EXACT_REGIONS_MAX / 2 };
+/* The most leaves along a side. */
+enum { SIDE_MOST = 64 };
 
 /* ns that a ray takes, if some go together: at a level of the hierarchy; at the box of a leaf; in a leaf; and how much
  * farther each leaf of its patch makes memory. */

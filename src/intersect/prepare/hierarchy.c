@@ -110,29 +110,22 @@ static enum status cut_patches(struct making *m)
 
 /* ---- leaves ---- */
 
-/* Leaves of one patch that are made together before anything else is touched. */
-enum { LEAVES_AT_ONCE = 32 };
-
 /* Makes the leaves of patch p, from number l on, and of their boxes those that there is room for. */
 static void patch_leaves(struct making *m, size_t p, size_t l)
 {
   struct model *model = m->model;
   struct patch_room room;
-  struct leaf made[LEAVES_AT_ONCE];
+  struct leaf made;
   const struct model_patch *patch = model_patch_at(model, (uint32_t)p, &room);
-  const size_t all = cut_leaves(&patch->cut);
-  for (size_t first = 0, count; first < all; first += count) {
-    struct leaf *leaves = m->keep ? &model->leaves[l] : made;
-    count = all - first < LEAVES_AT_ONCE ? all - first : LEAVES_AT_ONCE;
-    leaves_make(patch, (uint32_t)p, (uint32_t)first, count, leaves);
-    for (size_t k = 0; k < count; k++, l++) {
-      const struct leaf *leaf = &leaves[k];
-      if (model->places) model->places[l] = (struct leaf_place){(uint32_t)p, leaf->column_u, leaf->column_v};
-      if (m->boxes) leaf_box(model, patch, leaf->x, &m->boxes[l]);
-      if (!model->oriented) continue;
-      leaf_orient(&model->tree, model->error, patch, leaf->slab, &model->oriented[l]);
-      model->oriented[l].patch = (uint32_t)p;
-    }
+  const size_t count = cut_leaves(&patch->cut);
+  for (size_t k = 0; k < count; k++, l++) {
+    struct leaf *leaf = m->keep ? &model->leaves[l] : &made;
+    leaf_make(patch, (uint32_t)p, (uint32_t)k, leaf);
+    if (model->places) model->places[l] = (struct leaf_place){(uint32_t)p, leaf->column_u, leaf->column_v};
+    if (m->boxes) leaf_box(model, patch, leaf->x, &m->boxes[l]);
+    if (!model->oriented) continue;
+    leaf_orient(&model->tree, model->error, patch, leaf->slab, &model->oriented[l]);
+    model->oriented[l].patch = (uint32_t)p;
   }
 }
 
@@ -150,7 +143,6 @@ static enum status make_leaves(void *context, size_t worker)
       patch_leaves(m, p, l);
       l += cut_leaves(cut);
     }
-    if (m->keep) leaf_quadrics(l - m->leaves[part], &m->model->leaves[m->leaves[part]]);
   }
   return STATUS_OK;
 }

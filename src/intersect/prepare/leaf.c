@@ -1,119 +1,231 @@
-/* Prepares leaves: boxes, the choice of the kernel that makes their numbers, and what resultants are made of. */
+/* Leaves: their nets, bounds, Taylor polynomials, and the boxes along them. See leaf.h. */
 #include "intersect/prepare/leaf.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/kernel.h"
 #include "base/real.h"
 #include "geometry/patch.h"
-#include "intersect/prepare/leaf_kernel.h"
+#include "geometry/vector.h"
 #include "intersect/prepare/tree.h"
+
+/* ---- cutting ---- */
+
+static int head_bits(int leaves) { return leaves <= 256 ? 20 : 16; }
+
+/* A leaf's net as head + tail. The head is cut from a coordinate's first bits, which is exact if split_is_exact. The tail
+ * is smaller by as many bits and includes what x is rounded by. Cutting rounds it, by less than the planes' own errors by
+ * about as many bits. */
+struct halves {
+  double head[3][4][4], tail[3][4][4];
+};
+
+static void cut_halves(const struct model_patch *patch, const struct leaf *leaf, struct halves *out)
+{
+  const uint16_t *split = patch->cut.split;
+  const double round = 0x1.8p52 / (1 << head_bits(split[0] * split[1]));
+  /* quotients: the last one is 1 for any split */
+  const double u[2] = {leaf->column_u / (double)split[0], (leaf->column_u + 1) / (double)split[0]};
+  const double v[2] = {leaf->column_v / (double)split[1], (leaf->column_v + 1) / (double)split[1]};
+  for (int k = 0; k < 3; k++) {
+    for (int n = 0; n < 16; n++) {
+      const double x = patch->x[k][n / 4][n % 4], head = (x + round) - round;
+      out->head[k][n / 4][n % 4] = head, out->tail[k][n / 4][n % 4] = (x - head) + patch->rest[k][n / 4][n % 4];
+    }
+    patch_subnet(out->head[k], u[0], u[1], v[0], v[1], out->head[k]);
+    patch_subnet(out->tail[k], u[0], u[1], v[0], v[1], out->tail[k]);
+  }
+}
+
+/* ---- bounds ---- */
+
+/* A bound on the length of the longest: the length itself unless squares lose digits, below some 2^-450 of the patch. */
+static double longest(const double v[][3], int count)
+{
+  double square = 0, largest = 0;
+  for (int n = 0; n < count; n++) square = real_max(vector_dot(v[n], v[n]), square);
+  if (square >= VECTOR_SQUARE_MIN) return sqrt(square);
+  for (int n = 0; n < 3 * count; n++) largest = real_max(fabs(v[n / 3][n % 3]), largest);
+  return 2 * largest;
+}
+
+/* Bounds on derivatives of the leaf widened by LEAF_MARGIN, in its own parameters. */
+static void set_bounds(struct leaf *leaf)
+{
+  const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
+  double x[4][4], du[12][3], dv[12][3], uu[8][3], uv[9][3], vv[8][3];
+  for (int k = 0; k < 3; k++) {
+    memcpy(x, leaf->x[k], sizeof x);
+    patch_subnet(x, -LEAF_MARGIN, 1 + LEAF_MARGIN, -LEAF_MARGIN, 1 + LEAF_MARGIN, x);
+    for (int n = 0; n < 12; n++) {
+      const int i = n / 3, j = n % 3;
+      dv[n][k] = 3 * (x[i][j + 1] - x[i][j]), du[n][k] = 3 * (x[j + 1][i] - x[j][i]);
+    }
+    for (int n = 0; n < 8; n++) {
+      const int i = n / 4, j = n % 4;
+      uu[n][k] = 6 * (x[i + 2][j] - 2 * x[i + 1][j] + x[i][j]);
+      vv[n][k] = 6 * (x[j][i + 2] - 2 * x[j][i + 1] + x[j][i]);
+    }
+    for (int n = 0; n < 9; n++) {
+      const int i = n / 3, j = n % 3;
+      uv[n][k] = 9 * (x[i + 1][j + 1] - x[i + 1][j] - x[i][j + 1] + x[i][j]);
+    }
+  }
+  leaf->first[0] = longest(du, 12) * shrink, leaf->first[1] = longest(dv, 12) * shrink;
+  leaf->second[0] = longest(uu, 8), leaf->second[1] = longest(uv, 9), leaf->second[2] = longest(vv, 8);
+  for (int n = 0; n < 3; n++) leaf->second[n] *= shrink * shrink;
+}
+
+/* ---- Taylor's polynomial ---- */
+
+/* Coefficients about the middle of a cubic in Bernstein form. */
+static void taylor(const double b[4], double out[4])
+{
+  out[0] = ((b[0] + b[3]) + 3 * (b[1] + b[2])) / 8, out[1] = 0.75 * ((b[3] - b[0]) + (b[2] - b[1]));
+  out[2] = 1.5 * ((b[0] + b[3]) - (b[1] + b[2])), out[3] = (b[3] - b[0]) - 3 * (b[2] - b[1]);
+}
+
+/* The coefficient of s^i t^j goes to out[4 * i + j]. */
+static void taylor_net(const double x[4][4], double out[16])
+{
+  double rows[4][4];
+  for (int i = 0; i < 4; i++) taylor(x[i], rows[i]);
+  for (int j = 0; j < 4; j++) {
+    const double column[4] = {rows[0][j], rows[1][j], rows[2][j], rows[3][j]};
+    double of[4];
+    taylor(column, of);
+    for (int i = 0; i < 4; i++) out[4 * i + j] = of[i];
+  }
+}
+
+/* The largest powers of s and t over the leaf widened by LEAF_MARGIN. */
+#define REACH (0.5 + LEAF_MARGIN)
+static const double REACH_POWER[4] = {1, REACH, (REACH) * (REACH), (REACH) * (REACH) * (REACH)};
+
+/* What rounding adds to the value of a plane's polynomial. For each term of the rest, in either of two coordinates: one
+ * rounding of the coefficient; without fused multiply-add, two for each of its powers and two more in Horner's scheme;
+ * and one of the sum. To these come eight in the plane. If the cut rounds the net, Taylor coefficients are rounded when
+ * they are made, too: their differences lose some fifteen roundings of the sum of all terms but the constant one, and
+ * of the net's size 1, in either coordinate. First derivatives are off by at most 3/REACH times that, well below what
+ * the certificate allows. */
+#define TERM_ROUNDINGS(powers) (16 + 4 * (powers))
+#define CUT_ROUNDINGS 32
+
+/* If the rest adds at most this to a plane, points on the leaf are as good as POINT_ERROR says: half of it is in one
+ * coordinate. */
+#define FINAL_ERROR (16 * UNIT_ROUNDOFF)
+
+static double error_bound(const struct leaf_parts *parts, bool exact)
+{
+  double most_rest = 0, most_whole = 0;
+  for (int k = 0; k < 3; k++) {
+    double sum = 0, roundings = 0, size[4];
+    for (int n = 0; n < 16; n++) {
+      const double term = REACH_POWER[n / 4] * REACH_POWER[n % 4] * fabs(parts->rest[n][k]);
+      sum += term, roundings += TERM_ROUNDINGS(n / 4 + n % 4) * term;
+    }
+    for (int n = 1; n < 4; n++) size[n] = fabs(parts->base[n][k]);
+    most_rest = real_max(most_rest, roundings);
+    most_whole = real_max(most_whole, sum + REACH * (size[1] + size[2] + REACH * size[3]));
+  }
+  return UNIT_ROUNDOFF * (exact ? most_rest : most_rest + CUT_ROUNDINGS * (1 + most_whole));
+}
+
+/* Twice the error of a root, in the patch's frame, after the last step of Newton's method: well below its rounding. */
+#define LAST_STEP_CURVE (UNIT_ROUNDOFF / 32)
+
+static void set_parts(const struct halves *halves, bool exact, struct leaf *leaf)
+{
+  static const int bilinear[4] = {0, 4, 1, 5};
+  struct leaf_parts *out = &leaf->parts;
+  for (int k = 0; k < 3; k++) {
+    double head[16], tail[16];
+    taylor_net(halves->head[k], head);
+    taylor_net(halves->tail[k], tail);
+    for (int n = 0; n < 4; n++) {
+      double *of = &head[bilinear[n]];
+      out->base[n][k] = real_coarse(*of, LEAF_GRAIN);
+      *of -= out->base[n][k];
+    }
+    for (int n = 0; n < 16; n++) out->rest[n][k] = head[n] + tail[n];
+  }
+  const double *bend = leaf->second, second = bend[0] + 2 * bend[1] + bend[2];
+  out->last_step = real_min(NEWTON_LAST_STEP, sqrt(LAST_STEP_CURVE / real_max(second, LAST_STEP_CURVE)));
+  out->error = error_bound(out, exact);
+  out->final = exact && out->error <= FINAL_ERROR;
+}
+
+/* ---- the box along a leaf ---- */
+
+/* A box along the leaf is not worth its rounding if |Su x Sv| is less than this part of the squared derivatives. */
+#define LEAST_AREA 0x1p-30
+
+/* Below this |Su x Sv| has no reciprocal, for the net is nearly a point. */
+#define LEAST_NORMAL 0x1p-1000
+
+/* Whether two vectors tell a normal. */
+static bool tell_normal(const double a[3], const double b[3], double normal[1][3])
+{
+  vector_cross(a, b, normal[0]);
+  const double least = real_max(LEAST_AREA * (vector_dot(a, a) + vector_dot(b, b)), LEAST_NORMAL);
+  return longest((const double(*)[3])normal, 1) > least;
+}
+
+/* If a leaf is a line, or nearly, the axis farthest from it replaces the shorter of both vectors. */
+static void widen_line(double u[3], double v[3])
+{
+  const bool v_longer = vector_dot(v, v) > vector_dot(u, u);
+  const double *along = v_longer ? v : u;
+  double *across = v_longer ? u : v, length = 0;
+  int least = 0;
+  for (int k = 0; k < 3; k++)
+    length = real_max(length, fabs(along[k])), least = fabs(along[k]) < fabs(along[least]) ? k : least;
+  for (int k = 0; k < 3; k++) across[k] = k == least ? length : 0;
+}
+
+/* Sets the slabs. They tell nothing if the net's corners tell no direction in its middle. */
+static void set_slabs(const double x[3][16], struct leaf_slab out[3])
+{
+  double along_u[3], along_v[3], normal[1][3];
+  for (int k = 0; k < 3; k++) {
+    const double *c = x[k];
+    along_u[k] = 0.5 * ((c[12] - c[0]) + (c[15] - c[3])), along_v[k] = 0.5 * ((c[3] - c[0]) + (c[15] - c[12]));
+  }
+  bool tells = tell_normal(along_u, along_v, normal);
+  if (!tells) widen_line(along_u, along_v), tells = tell_normal(along_u, along_v, normal);
+  for (int q = 0; q < 3; q++) {
+    double *g = out[q].g, of[3], lo = INFINITY, hi = -INFINITY;
+    if (q == 0) memcpy(of, normal[0], sizeof of);
+    else if (q == 1) vector_cross(along_v, out[0].g, of);
+    else vector_cross(out[0].g, along_u, of);
+    vector_scale(tells ? 1 / (fabs(of[0]) + fabs(of[1]) + fabs(of[2])) : 0, of, g);
+    for (int n = 0; n < 16; n++) {
+      const double value = g[0] * x[0][n] + g[1] * x[1][n] + g[2] * x[2][n];
+      lo = real_min(lo, value), hi = real_max(hi, value);
+    }
+    out[q].offset = 0.5 * (lo + hi);
+    out[q].half = tells ? 0.5 * (hi - lo) + 8 * UNIT_ROUNDOFF : INFINITY; /* |x| <= 1 */
+  }
+}
+
+/* ---- the face ---- */
+
+void leaf_make(const struct model_patch *patch, uint32_t index, uint32_t number, struct leaf *out)
+{
+  const uint16_t *split = patch->cut.split;
+  struct halves halves;
+  out->patch = index, out->column_u = (uint16_t)(number / split[1]), out->column_v = (uint16_t)(number % split[1]);
+  cut_halves(patch, out, &halves);
+  for (int k = 0; k < 3; k++)
+    for (int n = 0; n < 16; n++) out->x[k][n] = halves.head[k][n / 4][n % 4] + halves.tail[k][n / 4][n % 4];
+  set_bounds(out);
+  set_parts(&halves, split_is_exact(split[0] * split[1]), out);
+  set_slabs((const double(*)[16])out->x, out->slab);
+}
 
 /* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (in either direction six lerps
  * of two roundings each, on values below one). Used for the boxes. */
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
-
-/* The narrowest kernel with room for `count`: wide registers with most lanes empty take longer. */
-static const struct leaf_kernel *kernel_for(size_t count)
-{
-#if defined(PSCN_HAS_AVX512)
-  if (count > 4 && KERNEL_RUNS_AVX512) return &leaf_kernel_avx512;
-#endif
-#if defined(PSCN_HAS_AVX2)
-  if (count > 2 && KERNEL_RUNS_AVX2) return &leaf_kernel_avx2;
-#endif
-  (void)count;
-  return &leaf_kernel_baseline;
-}
-
-/* Whether the leaf's border (geometry/edges.h) is a point. */
-static bool border_is_point(const struct model_patch *patch, const struct leaf *leaf, int border)
-{
-  const int column = border < 2 ? leaf->column_u : leaf->column_v, last = patch->cut.split[border / 2] - 1;
-  return patch->pole[border] && column == (border & 1 ? last : 0);
-}
-
-/* A declared control point carries half a unit in the last place from its decimal form and a few from its transforms. A
- * patch whose excess over a lower degree is at most this, relative to its largest coordinate, was meant to be of that
- * degree. */
-#define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
-
-static void true_degrees(const struct model_patch *patch, int *m, int *n)
-{
-  double x[3][4][4], far = 0;
-  memcpy(x, patch->x, sizeof x);
-  for (int k = 0; k < 3; k++) far = real_max(far, fabs(patch->center[k]));
-  patch_bidegree(x, DEGREE_SLACK * (1 + far / patch->scale), m, n);
-}
-
-/* Whether v is kept, not u. u is kept if an edge u = 0 or 1 is collapsed, because r(v) would be identically zero at the
- * apex; v the other way round; otherwise the parameter of higher degree, because the determinant is smaller then. */
-static bool keep_v(int m, int n, const double x[3][4][4])
-{
-  const int rows = patch_border_is_point(x, 0) + patch_border_is_point(x, 1);
-  const int columns = patch_border_is_point(x, 2) + patch_border_is_point(x, 3);
-  if (rows != columns) return columns > rows;
-  return n > m;
-}
-
-/* How far, on [0,1]^2, the polynomial of bidegree (m,n) with the net r is from the bicubic x: the largest distance of x
- * from r's net raised to (3,3), plus the roundings of raising it (two degrees twice, three each). */
-static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
-{
-  double up[4][4], excess = 0, size = 0;
-  memcpy(up, r, sizeof up);
-  for (int d = n; d < 3; d++)
-    for (int i = 0; i <= m; i++)
-      for (int j = d + 1; j >= 0; j--)
-        up[i][j] = ((j > 0 ? j * up[i][j - 1] : 0) + (j <= d ? (d + 1 - j) * up[i][j] : 0)) / (d + 1);
-  for (int d = m; d < 3; d++)
-    for (int j = 0; j < 4; j++)
-      for (int i = d + 1; i >= 0; i--)
-        up[i][j] = ((i > 0 ? i * up[i - 1][j] : 0) + (i <= d ? (d + 1 - i) * up[i][j] : 0)) / (d + 1);
-  for (int k = 0; k < 16; k++) {
-    excess = real_max(excess, fabs(up[k / 4][k % 4] - x[k / 4][k % 4]));
-    size = real_max(size, fabs(r[k / 4][k % 4]));
-  }
-  return m == 3 && n == 3 ? 0 : excess + 16 * UNIT_ROUNDOFF * size;
-}
-
-void leaf_form_make(const struct model_patch *patch, const struct leaf *leaf, struct leaf_form *out)
-{
-  int m, n;
-  true_degrees(patch, &m, &n);
-  double x[3][4][4];
-  memcpy(x, leaf->x, sizeof x);
-  const bool v_kept = out->v_kept = keep_v(m, n, (const double(*)[4][4])x);
-  out->kept_degree = (uint8_t)(v_kept ? n : m), out->eliminated_degree = (uint8_t)(v_kept ? m : n);
-  for (int end = 0; end < 2; end++)
-    out->zeros[end] = border_is_point(patch, leaf, 2 * v_kept + end) ? out->eliminated_degree : 0;
-  out->own = m == 3 && n == 3 && !v_kept, out->size = 1, out->excess = 0;
-  for (int k = 0; k < 3 && !out->own; k++) {
-    double r[4][4];
-    patch_reduce(x[k], m, n, r);
-    out->excess = real_max(out->excess, reduction_excess(r, m, n, x[k]));
-    for (int at = 0; at < 16; at++) {
-      const int i = at / 4, j = at % 4;
-      out->x[k][at] = v_kept ? r[j][i] : r[i][j];
-      out->size = real_max(out->size, fabs(r[i][j]));
-    }
-  }
-}
-
-void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[])
-{
-  const uint32_t row = patch->cut.split[1];
-  for (size_t k = 0; k < count; k++) {
-    const uint32_t number = first + (uint32_t)k;
-    leaves[k].patch = index, leaves[k].column_u = (uint16_t)(number / row),
-    leaves[k].column_v = (uint16_t)(number % row);
-    leaves[k].has_quadric = false;
-  }
-  kernel_for(count)->leaves(patch, count, leaves);
-}
-
-void leaf_quadrics(size_t count, struct leaf leaves[]) { kernel_for(count)->quadrics(count, leaves); }
 
 /* What rounding `half` to a float, and what it is compared with, may do: see lanes/view.h. */
 #define HALF_GROWTH (1 + 0x1p-20)

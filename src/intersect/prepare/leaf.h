@@ -1,7 +1,6 @@
 /* Cuts leaves out of a patch, and computes all that is known of them beforehand.
  *
- * Internal to src/intersect. Pure; safe on any thread. Results have the same bits on every processor, and for any
- * number of leaves at once.
+ * Internal to src/intersect. Pure; safe on any thread. Results have the same bits on every processor.
  */
 #ifndef PSCN_INTERSECT_PREPARE_LEAF_H
 #define PSCN_INTERSECT_PREPARE_LEAF_H
@@ -20,12 +19,8 @@ static inline bool split_is_exact(int leaves) { return leaves <= EXACT_LEAVES &&
  * derivatives. */
 static inline double turn_of(const double second[3]) { return (second[0] + 2 * second[1] + second[2]) / 2; }
 
-/* Makes leaves of patch number `index`, from its leaf `first` on, without their quadrics. Leaf column_u
- * split[1] + column_v is the one at these columns. */
-void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[]);
-
-/* Makes the quadrics of leaves, of one patch or of several. */
-void leaf_quadrics(size_t count, struct leaf leaves[]);
+/* Makes leaf `number` of patch number `index`: the one at columns number / split[1] and number % split[1]. */
+void leaf_make(const struct model_patch *patch, uint32_t index, uint32_t number, struct leaf *out);
 
 /* The polynomials that a leaf's resultants are made of: its net at its true degree, the kept parameter first. */
 struct leaf_form {
@@ -38,6 +33,7 @@ struct leaf_form {
   double x[3][16];  /* x[coordinate][4 * i + j], i = 0..degree kept, j = 0..degree eliminated; zero beyond */
 };
 
+/* leaf_form.c */
 void leaf_form_make(const struct model_patch *patch, const struct leaf *leaf, struct leaf_form *out);
 
 /* Sets a leaf's box along it in the frame of the tree, wider by the model's `error`; all but its patch. */

@@ -157,7 +157,7 @@ void model_make_leaf(const struct model *model, uint32_t number, struct leaf_roo
   const struct leaf_place *place = &model->places[number];
   patch_make(model, place->patch, &out->of.patch, out->of.rest);
   const uint32_t row = out->of.patch.cut.split[1];
-  leaves_make(&out->of.patch, place->patch, place->column_u * row + place->column_v, 1, &out->leaf);
+  leaf_make(&out->of.patch, place->patch, place->column_u * row + place->column_v, &out->leaf);
 }
 
 void model_destroy(struct model *model)
