@@ -127,15 +127,6 @@ static enum status parse(struct reading *r, const struct language_settings *sett
   return language->status;
 }
 
-static enum status add_lights(const struct settings *settings, struct scene *scene)
-{
-  scene->lights = arena_alloc(scene->arena, settings->light_count, sizeof *scene->lights);
-  if (!scene->lights) return STATUS_LIMIT;
-  for (const struct light_node *light = settings->lights; light; light = light->next)
-    scene->lights[scene->light_count++] = light->light;
-  return STATUS_OK;
-}
-
 static enum status make_scene(struct reading *r, struct scene **out_scene)
 {
   const struct settings *settings = &r->settings;
@@ -152,7 +143,10 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
   memcpy(scene->background, settings->background, sizeof scene->background);
   memcpy(scene->ambient_light, settings->ambient_light, sizeof scene->ambient_light);
   scene->camera = r->camera.folded;
-  enum status status = add_lights(settings, scene);
+  scene->lights = arena_alloc(arena, settings->light_count, sizeof *scene->lights);
+  for (const struct light_node *light = settings->lights; scene->lights && light; light = light->next)
+    scene->lights[scene->light_count++] = light->light;
+  enum status status = scene->lights ? STATUS_OK : STATUS_LIMIT;
   if (status == STATUS_OK) status = objects_expand(&r->language, &settings->method, scene, r->parts);
   if (status == STATUS_OK && !sources_list(&r->language, scene)) status = STATUS_LIMIT;
   if (status == STATUS_OK) *out_scene = scene;
@@ -187,17 +181,13 @@ static enum status override(struct scene *scene, const struct language_settings 
   return language_set_tolerance(settings->tolerance, scene->solver_count, scene->solvers, diagnostics);
 }
 
-#define MORE_THAN_ALLOWED "reading takes more memory than is allowed; --max-memory allows more"
-
 /* Ends a reading. If it ran out of memory, this has not been reported yet. */
 static void finish(struct reading *r, enum status status)
 {
   struct diagnostics *diagnostics = r->language.diagnostics;
   if (status == STATUS_LIMIT && !r->language.limit_told) {
     diagnostics_error(diagnostics, NOWHERE, "%s",
-                      r->language.unaffordable || memory_limit_reached()
-                        ? "reading takes more memory than is allowed; --max-memory allows more"
-                        : "memory is short");
+                      r->language.unaffordable || memory_limit_reached() ? MORE_THAN_ALLOWED : "memory is short");
   }
   reading_destroy(r);
 }

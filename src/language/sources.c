@@ -300,7 +300,7 @@ static struct source *read_included(struct language *language, struct span place
   if (status == STATUS_FILE) {
     tell_unreadable(language, place, path, reason);
   } else if (!source) {
-    if (memory_limit_reached()) reason = "reading takes more memory than is allowed; --max-memory allows more";
+    if (memory_limit_reached()) reason = MORE_THAN_ALLOWED;
     language_limit(language, place, reason);
   }
   return source;

@@ -103,6 +103,8 @@ struct language {
   struct settings *settings;
 };
 
+#define MORE_THAN_ALLOWED "reading takes more memory than is allowed; --max-memory allows more"
+
 /* Ends reading at once: STATUS_LIMIT if memory is short. What is in use is freed by whoever began to read. */
 _Noreturn void language_end(struct language *language, enum status status);
 

@@ -191,9 +191,7 @@ void declare_left_open(struct language *language, struct span end)
 
 static struct declaration *open_declaration(struct language *language, const struct declaration *declaration)
 {
-  struct declaration *open = language->symbols->ended;
-  if (open) language->symbols->ended = open->outer;
-  else open = language_alloc(language, sizeof *open);
+  struct declaration *open = &language->tokens->own->declaration;
   *open = *declaration;
   open->frame = language->sources->frame;
   open->braces = language->tokens->depth;
@@ -224,14 +222,6 @@ void declare_again(struct language *language, struct value *value)
   open->lacks = value->lacks;
 }
 
-static void declare_end(struct language *language, struct declaration *declaration)
-{
-  language->declaration = declaration->outer;
-  language->declared++;
-  declaration->outer = language->symbols->ended;
-  language->symbols->ended = declaration;
-}
-
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value)
 {
   if (value->kind >= VALUE_MACRO) symbol_mistaken(language, value, "a value");
@@ -240,7 +230,8 @@ void declare_value(struct language *language, struct declaration *declaration, c
   if (value->kind >= VALUE_MACRO || lacks) *to = (struct value){.kind = VALUE_UNKNOWN};
   else value_set(language, to, value);
   to->lacks = declaration->lacks;
-  declare_end(language, declaration);
+  language->declaration = declaration->outer;
+  language->declared++;
 }
 
 void declare_open(struct language *language, struct declaration *declaration, const struct value *value)

@@ -68,13 +68,12 @@ struct symbol {
 /* Zeroed: no names. */
 struct symbols {
   struct table table;
-  struct symbol *globals;    /* the newest first */
-  struct symbol *locals;     /* those of what is being read, the newest first */
-  struct symbol *unused;     /* to be reused */
-  struct declaration *ended; /* to be reused */
-  size_t considered;         /* names considered for guesses */
-  size_t macros;             /* macros that are or were declared */
-  int depth;                 /* files included and macros called around what is being read */
+  struct symbol *globals; /* the newest first */
+  struct symbol *locals;  /* those of what is being read, the newest first */
+  struct symbol *unused;  /* to be reused */
+  size_t considered;      /* names considered for guesses */
+  size_t macros;          /* macros that are or were declared */
+  int depth;              /* files included and macros called around what is being read */
 };
 
 /* Begin and end an included file or a macro's text. At its end, its locals are undeclared. */

@@ -134,7 +134,8 @@ static bool is_directive(const struct language *language)
 static void read_directive(struct language *language)
 {
   struct tokens *tokens = language->tokens;
-  const struct own *outer = tokens->own, own = {tokens->last.token, language->declaration, language->declared};
+  struct own *outer = tokens->own;
+  struct own own = {.token = tokens->last.token, .outer = language->declaration, .declared = language->declared};
   const int skipping = tokens->skipping;
   if (tokens->nested == MAX_NESTING)
     language_limit(language, tokens->last.place, "declarations are nested more than 200 deep");

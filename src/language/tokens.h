@@ -20,15 +20,16 @@ struct own {
   int token;
   const struct declaration *outer;
   size_t declared;
+  struct declaration declaration; /* its own, while it is open */
 };
 
 /* Zeroed: no token given yet. */
 struct tokens {
-  bool solver_only;      /* the text is that which follows `solver` */
-  int start[2];          /* tokens to be given before those of the text, the last one first; 0: none */
-  int nested;            /* parsers within each other */
-  const struct own *own; /* the directive being read, or NULL */
-  bool naming;           /* the next word is not that of a macro to be called */
+  bool solver_only; /* the text is that which follows `solver` */
+  int start[2];     /* tokens to be given before those of the text, the last one first; 0: none */
+  int nested;       /* parsers within each other */
+  struct own *own;  /* the directive being read, or NULL */
+  bool naming;      /* the next word is not that of a macro to be called */
   enum solver_part solver_part;
   int parentheses; /* open in the solver's block */
   int depth;       /* braces open */
