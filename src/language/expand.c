@@ -40,13 +40,12 @@ struct inherited {
   const struct method *method;   /* likewise, or the scene's */
 };
 
-/* Appends a new element; NULL if memory is short. */
-static void *append(struct arena *arena, struct list *list)
+/* Appends a new element. */
+static void *append(struct expansion *e, struct list *list)
 {
   if (*list->count == list->capacity) {
     const size_t wanted = list->capacity ? 2 * list->capacity : list->expected > 16 ? list->expected : 16;
-    void *grown = arena_alloc(arena, wanted, list->size);
-    if (!grown) return NULL;
+    void *grown = language_alloc_in(e->language, e->scene->arena, wanted, list->size);
     if (*list->count) memcpy(grown, *list->items, *list->count * list->size);
     *list->items = grown;
     list->capacity = wanted;
@@ -54,28 +53,24 @@ static void *append(struct arena *arena, struct list *list)
   return (char *)*list->items + (*list->count)++ * list->size;
 }
 
-/* Finds the element equal to `item`, or adds one. Neighbours mostly ask for the same item. */
-static bool intern(struct expansion *e, struct list *list, const void *item, uint32_t *out)
+/* The index of the element equal to `item`, which is added if there is none. Neighbours mostly ask for the same item. */
+static uint32_t intern(struct expansion *e, struct list *list, const void *item)
 {
-  if (item == list->last) {
-    *out = list->last_index;
-    return true;
-  }
+  if (item == list->last) return list->last_index;
+  struct arena *arena = e->language->arena;
   const struct table_entry *entry = table_find(&list->known, item, list->size);
   while (entry &&
          memcmp((char *)*list->items + ((const struct known *)entry)->index * list->size, item, list->size) != 0)
     entry = entry->older;
   if (!entry) {
-    struct known *known = arena_alloc(e->language->arena, 1, sizeof *known);
-    void *added = append(e->scene->arena, list);
-    if (!known || !added || !table_add(&list->known, e->language->arena, &known->entry, item, list->size)) return false;
-    memcpy(added, item, list->size);
-    known->index = (uint32_t)(*list->count - 1);
+    struct known *known = language_alloc_in(e->language, arena, 1, sizeof *known);
+    known->index = (uint32_t)*list->count;
+    memcpy(append(e, list), item, list->size);
+    if (!table_add(&list->known, arena, &known->entry, item, list->size)) language_end(e->language, STATUS_LIMIT);
     entry = &known->entry;
   }
   list->last = item;
-  *out = list->last_index = ((const struct known *)entry)->index;
-  return true;
+  return list->last_index = ((const struct known *)entry)->index;
 }
 
 /* How numbers were brought into the range of a scene's. */
@@ -104,7 +99,7 @@ static void expand_points(struct expansion *e, const struct node *node, const st
   language_error(e->language, node->place, "with its transforms applied, a control point is larger than 1e100");
 }
 
-static bool expand_patch(struct expansion *e, const struct node *node, const struct inherited *with)
+static void expand_patch(struct expansion *e, const struct node *node, const struct inherited *with)
 {
   struct scene_patch *patch = &e->scene->patches[e->scene->patch_count++];
   expand_points(e, node, with->transform, patch);
@@ -112,8 +107,8 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
   patch->flatness = node->net->setting[PATCH_FLATNESS];
   patch->u_steps = (int)node->net->setting[PATCH_U_STEPS];
   patch->v_steps = (int)node->net->setting[PATCH_V_STEPS];
-  return intern(e, &e->textures, &with->texture->is, &patch->texture) &&
-         intern(e, &e->methods, with->method, &patch->solver);
+  patch->texture = intern(e, &e->textures, &with->texture->is);
+  patch->solver = intern(e, &e->methods, with->method);
 }
 
 /* Writes the control nets below a node from out[0] on. Returns their end. */
@@ -133,36 +128,32 @@ static double (*collect_nets(const struct node *node, const struct transform *tr
 
 /* Records that the patches expanded next are the object of `node`, moved, unless the object's own numbers are out of
  * range. */
-static bool begin_copy(struct expansion *e, const struct node *node, const struct transform *transform)
+static void begin_copy(struct expansion *e, const struct node *node, const struct transform *transform)
 {
   struct scene *scene = e->scene;
   e->small = false;
   if (node->sharing->object == 0) {
     const struct transform identity = transform_identity();
-    struct scene_object *object = append(scene->arena, &e->objects);
-    if (!object) return false;
+    struct scene_object *object = append(e, &e->objects);
     object->patch_count = node->patch_count;
-    object->P = arena_alloc(scene->arena, node->patch_count, sizeof *object->P);
-    if (!object->P) return false;
+    object->P = language_alloc_in(e->language, scene->arena, node->patch_count, sizeof *object->P);
     collect_nets(node, &identity, object->P);
     node->sharing->object = (uint32_t)scene->object_count;
     if (bring_in_range((double *)object->P, node->patch_count * sizeof *object->P / sizeof(double)) != 0)
       node->sharing->uses = 1;
   }
-  if (node->sharing->uses == 1) return true;
-  struct scene_copy *copy = append(scene->arena, &e->copies);
-  if (!copy) return false;
+  if (node->sharing->uses == 1) return;
+  struct scene_copy *copy = append(e, &e->copies);
   copy->object = node->sharing->object - 1;
   copy->first_patch = scene->patch_count;
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) copy->A[i][j] = transform->A[i][j].hi;
     copy->b[i] = transform->A[3][i].hi;
   }
-  return true;
 }
 
 /* Recurses as deep as unions are nested: MAX_NESTING at most. Each child has a patch. */
-static bool expand(struct expansion *e, const struct node *node, const struct inherited *above)
+static void expand(struct expansion *e, const struct node *node, const struct inherited *above)
 {
   struct inherited with = *above;
   struct transform all;
@@ -170,39 +161,35 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
   if (node->texture) with.texture = node->texture;
   if (node->method) with.method = node->method;
   const bool is_copy = !e->in_copy && node->sharing && node->sharing->uses > 1 && node->patch_count <= COPIED_MOST;
-  if (is_copy && !begin_copy(e, node, with.transform)) return false;
+  if (is_copy) begin_copy(e, node, with.transform);
   e->in_copy |= is_copy;
-  bool whole = true;
-  if (node->net) whole = expand_patch(e, node, &with);
-  for (const struct node *child = node->first; whole && child; child = child->next) whole = expand(e, child, &with);
+  if (node->net) expand_patch(e, node, &with);
+  for (const struct node *child = node->first; child; child = child->next) expand(e, child, &with);
   if (is_copy && e->small && node->sharing->uses > 1) e->scene->copy_count--;
   e->in_copy &= !is_copy;
-  return whole;
 }
 
-/* The name of a declared object; NULL if memory is short. */
+/* The name of a declared object, for as long as the scene. */
 static const char *name_of(struct expansion *e, struct sharing *sharing)
 {
-  char *text = sharing->kept ? NULL : arena_alloc(e->scene->arena, sharing->name.length + 1, 1);
-  if (text) sharing->kept = memcpy(text, sharing->name.text, sharing->name.length);
+  if (!sharing->kept)
+    sharing->kept = memcpy(language_alloc_in(e->language, e->scene->arena, sharing->name.length + 1, 1),
+                           sharing->name.text, sharing->name.length);
   return sharing->kept;
 }
 
-static bool list_parts(struct expansion *e, const struct node *all, struct language_parts *out)
+static void list_parts(struct expansion *e, const struct node *all, struct language_parts *out)
 {
   struct list parts = {.items = (void **)&out->at, .count = &out->count, .size = sizeof *out->at};
   size_t first = 0;
   for (const struct node *child = all->first; child; first += child->patch_count, child = child->next) {
-    const bool named = child->sharing != NULL;
-    struct language_part *part = append(e->scene->arena, &parts);
-    if (!part || (named && !name_of(e, child->sharing))) return false;
-    *part = (struct language_part){named ? child->sharing->kept : NULL, first};
+    struct language_part *part = append(e, &parts);
+    *part = (struct language_part){child->sharing ? name_of(e, child->sharing) : NULL, first};
   }
-  return true;
 }
 
-enum status objects_expand(struct language *language, const struct method *method, struct scene *scene,
-                           struct language_parts *parts)
+void objects_expand(struct language *language, const struct method *method, struct scene *scene,
+                    struct language_parts *parts)
 {
   struct expansion e = {
     .language = language,
@@ -217,10 +204,9 @@ enum status objects_expand(struct language *language, const struct method *metho
   const struct node *all = &language->objects->scene.node;
   const struct transform identity = transform_identity();
   const struct inherited nothing = {&identity, NULL, method};
-  uint32_t first;
-  scene->patches = arena_alloc(scene->arena, all->patch_count, sizeof *scene->patches);
-  if (!scene->patches || !intern(&e, &e.methods, method, &first) || !expand(&e, all, &nothing) ||
-      (parts && !list_parts(&e, all, parts)))
-    return STATUS_LIMIT;
-  return e.told ? STATUS_INPUT : STATUS_OK;
+  scene->patches = language_alloc_in(language, scene->arena, all->patch_count, sizeof *scene->patches);
+  (void)intern(&e, &e.methods, method);
+  expand(&e, all, &nothing);
+  if (parts) list_parts(&e, all, parts);
+  if (e.told) language_end(language, STATUS_INPUT);
 }

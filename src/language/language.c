@@ -127,15 +127,18 @@ static enum status parse(struct reading *r, const struct language_settings *sett
   return language->status;
 }
 
-static enum status make_scene(struct reading *r, struct scene **out_scene)
+/* Makes the scene in *out_scene, which is the caller's also if reading ends before it is whole. */
+static void fill_scene(struct reading *r, struct scene **out_scene)
 {
+  struct language *language = &r->language;
   const struct settings *settings = &r->settings;
   struct arena *arena = arena_create();
   struct scene *scene = arena ? arena_alloc(arena, 1, sizeof *scene) : NULL;
   if (!scene) {
     arena_destroy(arena);
-    return STATUS_LIMIT;
+    language_end(language, STATUS_LIMIT);
   }
+  *out_scene = scene;
   scene->arena = arena;
   scene->has_camera = r->camera.said;
   scene->gamma = settings_gamma(settings);
@@ -143,15 +146,17 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
   memcpy(scene->background, settings->background, sizeof scene->background);
   memcpy(scene->ambient_light, settings->ambient_light, sizeof scene->ambient_light);
   scene->camera = r->camera.folded;
-  scene->lights = arena_alloc(arena, settings->light_count, sizeof *scene->lights);
-  for (const struct light_node *light = settings->lights; scene->lights && light; light = light->next)
+  scene->lights = language_alloc_in(language, arena, settings->light_count, sizeof *scene->lights);
+  for (const struct light_node *light = settings->lights; light; light = light->next)
     scene->lights[scene->light_count++] = light->light;
-  enum status status = scene->lights ? STATUS_OK : STATUS_LIMIT;
-  if (status == STATUS_OK) status = objects_expand(&r->language, &settings->method, scene, r->parts);
-  if (status == STATUS_OK && !sources_list(&r->language, scene)) status = STATUS_LIMIT;
-  if (status == STATUS_OK) *out_scene = scene;
-  else scene_destroy(scene);
-  return status;
+  objects_expand(language, &settings->method, scene, r->parts);
+  sources_list(language, scene);
+}
+
+static enum status make_scene(struct reading *r, struct scene **out_scene)
+{
+  if (setjmp(r->language.ended) == 0) fill_scene(r, out_scene);
+  return r->language.status;
 }
 
 enum status language_set_tolerance(double tolerance, size_t count, struct method methods[],
@@ -283,7 +288,12 @@ void language_afford(struct language *language, size_t bytes)
 void *language_alloc(struct language *language, size_t size)
 {
   language_afford(language, size);
-  void *memory = arena_alloc(language->arena, 1, size);
+  return language_alloc_in(language, language->arena, 1, size);
+}
+
+void *language_alloc_in(struct language *language, struct arena *arena, size_t count, size_t size)
+{
+  void *memory = arena_alloc(arena, count, size);
   if (!memory) language_end(language, STATUS_LIMIT);
   return memory;
 }

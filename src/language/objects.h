@@ -85,9 +85,9 @@ struct node *shape_pass(struct language *language, struct span place);
 void scene_add(struct language *language, struct node *object);
 
 /* Puts all patches of language->objects, with their textures and solvers, into the scene. `method` becomes the scene's
- * first. `parts`, if not NULL, becomes the list of the outermost objects. STATUS_INPUT after reporting that a point is
- * too large; STATUS_LIMIT. */
-enum status objects_expand(struct language *language, const struct method *method, struct scene *scene,
-                           struct language_parts *parts) STATUS_MUST_CHECK;
+ * first. `parts`, if not NULL, becomes the list of the outermost objects. Ends with STATUS_INPUT after reporting that a
+ * point is too large. */
+void objects_expand(struct language *language, const struct method *method, struct scene *scene,
+                    struct language_parts *parts);
 
 #endif

@@ -165,19 +165,16 @@ static void hash_texts(const struct sources *sources, char out[SCENE_HASH_SIZE])
   snprintf(out, SCENE_HASH_SIZE, "%016" PRIx64 "%016" PRIx64, (uint64_t)(hash >> 64), (uint64_t)hash);
 }
 
-bool sources_list(const struct language *language, struct scene *scene)
+void sources_list(struct language *language, struct scene *scene)
 {
-  hash_texts(language->sources, scene->text_hash);
-  scene->files = arena_alloc(scene->arena, (size_t)language->sources->count, sizeof *scene->files);
-  for (const struct source_list *entry = language->sources->all; scene->files && entry; entry = entry->next) {
-    const struct source *source = entry->source;
-    if (source->shared || source->inode == 0) continue;
-    char *name = arena_alloc(scene->arena, strlen(source->name) + 1, 1);
-    if (!name) return false;
-    strcpy(name, source->name);
-    scene->files[scene->file_count++] = name;
+  const struct sources *sources = language->sources;
+  hash_texts(sources, scene->text_hash);
+  scene->files = language_alloc_in(language, scene->arena, (size_t)sources->count, sizeof *scene->files);
+  for (const struct source_list *entry = sources->all; entry; entry = entry->next) {
+    const char *name = entry->source->name;
+    if (entry->source->shared || entry->source->inode == 0) continue;
+    scene->files[scene->file_count++] = strcpy(language_alloc_in(language, scene->arena, strlen(name) + 1, 1), name);
   }
-  return scene->files != NULL;
 }
 
 struct place sources_place(const struct language *language, struct span span)

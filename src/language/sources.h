@@ -62,8 +62,8 @@ void sources_open(struct language *language, struct source *source);
 /* Begins to read the file that an #include names at `place`, or reports an error. */
 void sources_include(struct language *language, struct span place, const char *name, size_t length);
 
-/* Writes the names of the files that were read to the scene; false if memory is short. */
-bool sources_list(const struct language *language, struct scene *scene);
+/* Writes the names of the files that were read to the scene. */
+void sources_list(struct language *language, struct scene *scene);
 
 /* The text read so far is needed only for errors now: gives back the memory of a long one. */
 void sources_pass(struct language *language);

@@ -111,8 +111,10 @@ _Noreturn void language_end(struct language *language, enum status status);
 /* Counts that many more bytes; ends reading if settings.max_memory does not allow them. */
 void language_afford(struct language *language, size_t bytes);
 
-/* Zeroed memory, never NULL: if it is short, reading ends. */
+/* Zeroed memory, never NULL: if it is short, reading ends. In the arena of the reading, or in another one, where
+ * max_memory does not count it. */
 void *language_alloc(struct language *language, size_t size);
+void *language_alloc_in(struct language *language, struct arena *arena, size_t count, size_t size);
 
 /* A copy of text that may be dropped. */
 const char *language_keep(struct language *language, const char *text, size_t length);
