@@ -6,7 +6,7 @@
 
 #include "language/language.h"
 #include "language/textures.h"
-#include "language/transforms.h"
+#include "language/values.h"
 #include "scene/method.h"
 #include "scene/scene.h"
 

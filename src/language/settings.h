@@ -2,7 +2,6 @@
 #ifndef PSCN_LANGUAGE_SETTINGS_H
 #define PSCN_LANGUAGE_SETTINGS_H
 
-#include "language/transforms.h"
 #include "language/values.h"
 #include "scene/method.h"
 #include "scene/scene.h"

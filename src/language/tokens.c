@@ -124,9 +124,7 @@ static bool is_directive(const struct language *language)
   const struct tokens *tokens = language->tokens;
   const int token = tokens->last.token;
   const struct declaration *declaration = language->declaration;
-  if (token != PSCN_TOKEN_DECLARE && token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_VERSION &&
-      token != PSCN_TOKEN_DEFAULT)
-    return false;
+  if (token < PSCN_TOKEN_VERSION || token > PSCN_TOKEN_DEFAULT) return false;
   return !declaration || tokens->depth > declaration->braces || language->sources->frame != declaration->frame;
 }
 

@@ -1,5 +1,5 @@
 /* The statements of transforms. */
-#include "language/transforms.h"
+#include "language/values.h"
 
 #include <math.h>
 
