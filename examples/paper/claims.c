@@ -275,7 +275,7 @@ static void orders(void)
     options.watch = &watch;
     for (int p = 0; p < 4 * POLYNOMIALS; p++) {
       struct root_problem problem = {.degree = PAPER_DEGREE, .basis = BASIS_POWER};
-      struct root_estimates roots;
+      struct root_set roots;
       measure_random_polynomial(&seed, PAPER_DEGREE, problem.c);
       memset(ways.steps, 0, sizeof ways.steps);
       options.solver->find(&problem, &options, NULL, &roots);

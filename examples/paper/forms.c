@@ -10,17 +10,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "algebra/deflation.h"
-#include "algebra/start.h"
+#include "algebra/root_problem.h"
 #include "base/lanes.h"
 
 const char *const paper_method_names[PAPER_METHODS] = {"newton", "laguerre", "aberth"};
 const char *const form_names[FORMS] = {"scalar", "lanes"};
 
-/* As in src/algebra: deflation.c, root_kernel.c. */
+/* As in src/algebra/deflation.c. */
 #define LONGEST_STEP 8.0
-#define STUCK 0.9
-enum { TURN_PERIOD = 7, TURN_PERIOD_AT_ONCE = 5 };
+enum { TURN_STEPS = 7 };
 
 /* Registers of polynomials that a deflating method works on in turn. Horner's scheme waits for each result, and two
  * that alternate wait half as long (three are too many for 16 registers). Aberth's roots need not wait for each
@@ -42,17 +40,17 @@ static double operations_paper(enum paper_method method, int n)
 
 /* Counts a polynomial that is done. */
 static void count_polynomial(enum paper_method method, const struct batch *batch, size_t number,
-                             const struct root_estimates *roots, struct batch_totals *out, double where[][2])
+                             const struct root_set *roots, struct batch_totals *out, double where[][2])
 {
   const int n = batch->degree, count = batch->first_only && method != PAPER_ABERTH ? 1 : roots->count;
   for (int i = 0; i < count; i++) {
     const int left = method == PAPER_ABERTH ? n : n - i;
-    out->iterations += roots->iterations[i];
-    out->sought += roots->iterations[i] > 0;
-    out->operations += roots->iterations[i] * operations_ours(method, left);
-    out->operations_paper += roots->iterations[i] * operations_paper(method, left);
-    if (where != NULL) where[number * (size_t)n + (size_t)i][0] = roots->re[i];
-    if (where != NULL) where[number * (size_t)n + (size_t)i][1] = roots->im[i];
+    out->iterations += roots->root[i].iterations;
+    out->sought += roots->root[i].iterations > 0;
+    out->operations += roots->root[i].iterations * operations_ours(method, left);
+    out->operations_paper += roots->root[i].iterations * operations_paper(method, left);
+    if (where != NULL) where[number * (size_t)n + (size_t)i][0] = roots->root[i].re;
+    if (where != NULL) where[number * (size_t)n + (size_t)i][1] = roots->root[i].im;
   }
 }
 
@@ -61,14 +59,14 @@ static void set_problem(const struct batch *batch, size_t number, struct root_pr
   const size_t terms = (size_t)batch->degree + 1;
   out->degree = batch->degree;
   out->basis = BASIS_POWER;
+  out->unit = 0;
   memcpy(out->c, batch->c + number * terms, terms * sizeof *out->c);
 }
 
-static void remember(const struct root_estimates *roots, struct solver_warm *warm)
+static void remember(const struct root_set *roots, struct solver_warm *warm)
 {
   warm->count = roots->count;
-  memcpy(warm->re, roots->re, sizeof warm->re[0] * (size_t)roots->count);
-  memcpy(warm->im, roots->im, sizeof warm->im[0] * (size_t)roots->count);
+  for (int i = 0; i < roots->count; i++) warm->re[i] = roots->root[i].re, warm->im[i] = roots->root[i].im;
 }
 
 /* ---- scalar ---- */
@@ -90,15 +88,15 @@ static struct complex_number aberth_step(const struct root_problem *problem, con
 }
 
 static void aberth_scalar(const struct root_problem *problem, const struct batch *batch, const struct solver_warm *warm,
-                          struct root_estimates *out)
+                          struct root_set *out)
 {
   const int n = problem->degree;
   struct complex_number z[FORMS_DEGREE], next[FORMS_DEGREE];
-  double checked[FORMS_DEGREE];
-  start_values(problem, RADII_CIRCLE, warm, n, out->re, out->im);
+  double re[FORMS_DEGREE], im[FORMS_DEGREE], checked[FORMS_DEGREE];
+  start_values(problem, RADII_CIRCLE, warm, n, re, im);
   for (int i = 0; i < n; i++) {
-    z[i] = (struct complex_number){out->re[i], out->im[i]};
-    checked[i] = INFINITY, out->iterations[i] = 0;
+    z[i] = (struct complex_number){re[i], im[i]};
+    checked[i] = INFINITY, out->root[i].iterations = 0;
   }
   bool moving = true;
   for (int number = 1; number <= batch->max_iterations && moving; number++) {
@@ -107,20 +105,18 @@ static void aberth_scalar(const struct root_problem *problem, const struct batch
       struct complex_number step = aberth_step(problem, z, i);
       const double square = complex_norm(step);
       const bool done = square < batch->tolerance * batch->tolerance;
-      if (number % TURN_PERIOD_AT_ONCE == 0) {
-        const double angle = 0.3 + 0.37 * i;
-        if (!done && square >= STUCK * STUCK * checked[i])
-          step = complex_multiply(step, (struct complex_number){cos(angle), sin(angle)});
+      if (number % TURN_PERIOD == 0) {
+        if (!done) step = turn_if_stuck(i, step, square, checked[i]);
         checked[i] = square;
       }
       next[i] = complex_add(z[i], step);
-      out->iterations[i]++;
+      out->root[i].iterations++;
       moving |= !done;
     }
     memcpy(z, next, sizeof z[0] * (size_t)n);
   }
   out->count = n;
-  for (int i = 0; i < n; i++) out->re[i] = z[i].re, out->im[i] = z[i].im;
+  for (int i = 0; i < n; i++) out->root[i].re = z[i].re, out->root[i].im = z[i].im;
 }
 
 static void run_scalar(enum paper_method method, const struct batch *batch, struct batch_totals *out, double where[][2])
@@ -133,7 +129,7 @@ static void run_scalar(enum paper_method method, const struct batch *batch, stru
   struct solver_warm warm = {0};
   for (size_t p = 0; p < batch->count; p++) {
     struct root_problem problem;
-    struct root_estimates roots;
+    struct root_set roots;
     set_problem(batch, p, &problem);
     const struct solver_warm *from = batch->previous ? &warm : NULL;
     if (method == PAPER_ABERTH) aberth_scalar(&problem, batch, from, &roots);
@@ -149,7 +145,7 @@ static void run_scalar(enum paper_method method, const struct batch *batch, stru
 struct place {
   size_t at, end;           /* at == end: nothing is left to do */
   struct root_problem rest; /* what deflation has left of it */
-  struct root_estimates roots;
+  struct root_set roots;
   struct solver_warm warm;
 };
 
@@ -217,15 +213,15 @@ static void take_root(struct seekers *s, enum paper_method method, const struct 
   if (on <= bound || on <= off) {
     deflation_divide_linear(DEFLATION_FORWARD, rest->degree, rest->c, z.re);
     rest->degree -= 1;
-    root_estimates_add(&place->roots, z.re, 0.0, iterations, true, false);
+    root_set_add(&place->roots, (struct root){z.re, 0.0, 0.0, iterations, ROOT_CONVERGED});
   } else {
     deflation_divide_quadratic(DEFLATION_FORWARD, rest->degree, rest->c, 2.0 * z.re, complex_norm(z));
     rest->degree -= 2;
-    root_estimates_add(&place->roots, z.re, z.im, iterations, true, false);
-    root_estimates_add(&place->roots, z.re, -z.im, 0, true, false);
+    root_set_add(&place->roots, (struct root){z.re, z.im, 0.0, iterations, ROOT_CONVERGED});
+    root_set_add(&place->roots, (struct root){z.re, -z.im, 0.0, 0, ROOT_CONVERGED});
   }
   if (rest->degree == 1) {
-    root_estimates_add(&place->roots, -rest->c[0] / rest->c[1], 0.0, 0, true, false);
+    root_set_add(&place->roots, (struct root){-rest->c[0] / rest->c[1], 0.0, 0.0, 0, ROOT_CONVERGED});
     rest->degree = 0;
   }
   const bool whole = rest->degree == 0 || batch->first_only;
@@ -304,7 +300,7 @@ LANES_INLINE lane_mask deflating_move(struct seekers *s, const struct batch *bat
   const lane_mask converged = usable & (length < batch->tolerance * batch->tolerance);
   s->iterations += 1;
   lane_mask turning = {0};
-  for (int l = 0; l < LANES; l++) turning[l] = (int)s->iterations[l] % TURN_PERIOD == 0 ? -1 : 0;
+  for (int l = 0; l < LANES; l++) turning[l] = (int)s->iterations[l] % TURN_STEPS == 0 ? -1 : 0;
   turning &= ~converged;
   if (lanes_any(turning)) {
     const lane_mask stuck = turning & (length >= STUCK * STUCK * s->checked);
@@ -427,17 +423,17 @@ static void run_aberth(const struct batch *batch, struct batch_totals *out, doub
     lane_mask turning = {0}, last = {0};
     for (int l = 0; l < LANES; l++) {
       s.sweeps[l]++;
-      turning[l] = s.sweeps[l] % TURN_PERIOD_AT_ONCE == 0 ? -1 : 0;
+      turning[l] = s.sweeps[l] % TURN_PERIOD == 0 ? -1 : 0;
       last[l] = s.sweeps[l] >= batch->max_iterations ? -1 : 0;
     }
     const lane_mask done = s.busy & (~swarm_sweep(&s, batch, turning) | last);
     for (unsigned bits = lanes_bits(done); bits != 0; bits &= bits - 1) {
       const int lane = __builtin_ctz(bits);
-      struct root_estimates *roots = &place[lane].roots;
+      struct root_set *roots = &place[lane].roots;
       roots->count = n;
       for (int i = 0; i < n; i++) {
-        roots->re[i] = s.zr[i][lane], roots->im[i] = s.zi[i][lane];
-        roots->iterations[i] = s.sweeps[lane];
+        roots->root[i].re = s.zr[i][lane], roots->root[i].im = s.zi[i][lane];
+        roots->root[i].iterations = s.sweeps[lane];
       }
       count_polynomial(PAPER_ABERTH, batch, place[lane].at++, roots, out, where);
       if (batch->previous) remember(roots, &place[lane].warm);

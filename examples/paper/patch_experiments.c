@@ -28,7 +28,7 @@ static void solve_pixel(const double c[], const struct solver_options *options, 
                         struct totals *totals)
 {
   struct root_problem problem = {.degree = DEGREE, .basis = BASIS_POWER};
-  struct root_estimates roots;
+  struct root_set roots;
   memcpy(problem.c, c, sizeof problem.c[0] * (DEGREE + 1));
   if (c[0] == 0.0 || c[DEGREE] == 0.0) return; /* it has a root at 0 or at infinity, and is not of degree 18 */
   const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
@@ -37,12 +37,12 @@ static void solve_pixel(const double c[], const struct solver_options *options, 
   int accurate = 0;
   warm->count = 0;
   for (int i = 0; i < roots.count; i++) {
-    totals->iterations += roots.iterations[i];
-    totals->roots += roots.iterations[i] > 0;
-    accurate += measure_eq11(&problem, roots.re[i], roots.im[i]) < 1.0;
-    if (isfinite(roots.re[i]) && isfinite(roots.im[i])) {
-      warm->re[warm->count] = roots.re[i];
-      warm->im[warm->count++] = roots.im[i];
+    totals->iterations += roots.root[i].iterations;
+    totals->roots += roots.root[i].iterations > 0;
+    accurate += measure_eq11(&problem, roots.root[i].re, roots.root[i].im) < 1.0;
+    if (isfinite(roots.root[i].re) && isfinite(roots.root[i].im)) {
+      warm->re[warm->count] = roots.root[i].re;
+      warm->im[warm->count++] = roots.root[i].im;
     }
   }
   totals->accurate_roots += accurate;

@@ -17,7 +17,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "algebra/deflation.h"
 #include "algebra/root_problem.h"
 #include "algebra/solver.h"
 #include "base/clock.h"
@@ -60,7 +59,7 @@ static void random_problem(uint64_t *state, int degree, struct root_problem *out
 
 /* Finds all roots, or only the first one; a method that moves all at once always finds all. */
 static void find(const struct root_problem *problem, const struct solver_options *options, bool first_only,
-                 struct root_estimates *out)
+                 struct root_set *out)
 {
   if (!first_only || at_once(options)) {
     options->solver->find(problem, options, NULL, out);
@@ -85,7 +84,7 @@ static struct summary measure(int degree, const struct solver_options *options, 
   double values = 0.0, sought = 0.0, sum = 0.0, squares = 0.0;
   for (int i = 0; i < POLYNOMIALS; i++) {
     struct root_problem problem;
-    struct root_estimates roots;
+    struct root_set roots;
     random_problem(&seed, degree, &problem);
     const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
     for (int repeat = 0; repeat < repeats; repeat++) find(&problem, options, first_only, &roots);
@@ -93,13 +92,13 @@ static struct summary measure(int degree, const struct solver_options *options, 
     const int count = first_only && !at_once(options) ? 1 : roots.count;
     const double steps_before = out.iterations, sought_before = sought;
     for (int r = 0; r < count; r++) {
-      const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);
+      const double ratio = measure_eq11(&problem, roots.root[r].re, roots.root[r].im);
       out.accurate += ratio < 1.0;
       out.error += log10(fmax(ratio, 1e-6));
       values += 1.0;
-      out.iterations += roots.iterations[r];
-      sought += roots.iterations[r] > 0;
-      out.unconverged += !roots.converged[r];
+      out.iterations += roots.root[r].iterations;
+      sought += roots.root[r].iterations > 0;
+      out.unconverged += roots.root[r].status == ROOT_LIMIT;
     }
     const double mean = (out.iterations - steps_before) / fmax(sought - sought_before, 1.0);
     sum += mean, squares += mean * mean;
@@ -153,11 +152,11 @@ static void order(void)
       uint64_t seed = 99;
       for (int i = 0; i < POLYNOMIALS; i++) {
         struct root_problem problem;
-        struct root_estimates roots;
+        struct root_set roots;
         random_problem(&seed, PAPER_DEGREE, &problem);
         find(&problem, &options, false, &roots);
         for (int r = 0; r < roots.count; r++) {
-          const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);
+          const double ratio = measure_eq11(&problem, roots.root[r].re, roots.root[r].im);
           accurate[r] += ratio < 1.0;
           error[r] += log10(fmax(ratio, 1e-6));
         }

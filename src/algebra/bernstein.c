@@ -33,7 +33,7 @@ struct search {
   const struct solver_options *options;
   struct evaluation p, sure; /* with the bounds of rounding alone; with those of the coefficients too */
   int degree;
-  struct root_estimates *out;
+  struct root_set *out;
   double joint;      /* the end of the interval to the left, if it has a root not told from that end; otherwise -1 */
   double joint_from; /* the farthest left that root may be */
   double cluster_low, cluster_high; /* pending undecided intervals, joined; none while low > high */
@@ -87,7 +87,8 @@ static struct probe probe_at(const struct search *search, double u)
 /* Tells the watcher of a step of the root that is sought. */
 static void tell_step(const struct search *search, int step, double u)
 {
-  root_problem_tell(search->options, BASIS_POWER, search->out->count, step, u, 0.0); /* in u already */
+  const struct solver_watch *watch = search->options->watch;
+  if (watch != NULL) watch->tell(watch->context, search->out->count, step, u, 0.0);
 }
 
 static struct evaluation_real look(const struct search *search, double u)
@@ -148,8 +149,8 @@ static void bracketed_newton(struct search *search, const struct interval *part,
     converged = last_step < search->options->tolerance || next == low || next == high;
     u = next;
   }
-  root_estimates_add(search->out, u, 0.0, spent, converged, false);
-  search->out->reach[search->out->count - 1] = bracket_reach(search, part->low, part->low + part->width, low_sign, u);
+  const double reach = bracket_reach(search, part->low, part->low + part->width, low_sign, u);
+  root_set_add(search->out, (struct root){u, 0.0, reach, spent, converged ? ROOT_CONVERGED : ROOT_LIMIT});
 }
 
 /* Where the control polygon of the interval crosses zero, which it does once. */
@@ -181,8 +182,8 @@ static double open_end_reach(const struct interval *part, int n, bool at_high, i
 /* Extends the reach of root `index` to u. */
 static void reach_out(struct search *search, int index, double u)
 {
-  double *reach = &search->out->reach[index];
-  *reach = fmax(*reach, fabs(u - search->out->re[index]) * BOUND_ROOM);
+  struct root *root = &search->out->root[index];
+  root->radius = fmax(root->radius, fabs(u - root->re) * BOUND_ROOM);
 }
 
 /* Adds a root at u within its error, or no farther from u than `reach`, which is negative to the left. u is an end of
@@ -202,7 +203,7 @@ static void add_end_root(struct search *search, double u, double width, double r
     at = next;
     tell_step(search, spent, at);
   }
-  root_estimates_add(search->out, at, 0.0, spent, !moving, false);
+  root_set_add(search->out, (struct root){at, 0.0, 0.0, spent, moving ? ROOT_LIMIT : ROOT_CONVERGED});
   reach_out(search, search->out->count - 1, u);
   reach_out(search, search->out->count - 1, u + reach);
 }
@@ -229,7 +230,7 @@ static void flush_cluster(struct search *search)
   const bool inside = left >= low && left <= high && right >= low && right <= high;
   const double at[2] = {inside ? left : middle, right};
   for (int k = 0; k < (inside && right != left ? 2 : 1); k++) {
-    root_estimates_add(search->out, at[k], 0.0, 1, true, true);
+    root_set_add(search->out, (struct root){at[k], 0.0, 0.0, 1, ROOT_CLUSTER});
     reach_out(search, search->out->count - 1, search->cluster_from);
     reach_out(search, search->out->count - 1, search->cluster_to);
   }
@@ -335,7 +336,7 @@ static void first_interval(const struct root_problem *problem, struct interval *
 }
 
 void bernstein_find(const struct root_problem *problem, const struct solver_options *options,
-                    const struct solver_warm *warm, struct root_estimates *out)
+                    const struct solver_warm *warm, struct root_set *out)
 {
   (void)warm; /* nothing to start from is needed: the signs lead to every root */
   out->count = 0;

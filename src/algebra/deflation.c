@@ -1,4 +1,4 @@
-/* One root at a time: the loop that Newton's and Laguerre's methods share (sections 3.1 and 3.2 of the paper).
+/* One root at a time: Newton's and Laguerre's methods, and the loop that they share (sections 3.1 and 3.2 of the paper).
  *
  * A root is sought in the polynomial from which the roots before it have been divided out. The search begins at the
  * first start value of that (or at the i-th root of the previous polynomial, with `start previous`). Forward division
@@ -9,11 +9,9 @@
  * A value is taken for a real root if dropping its imaginary part does not raise |p| above its previous value or above
  * its rounding bound. The paper does not say how it decides.
  */
-#include "algebra/deflation.h"
-
 #include <string.h>
 
-#include "algebra/start.h"
+#include "algebra/root_problem.h"
 
 /* No step is longer than this many times |x| + the mean modulus of the roots. Where p' nearly vanishes, the way back
  * would take hundreds of steps. */
@@ -32,6 +30,28 @@ enum { TURN_STEPS = 7 };
 
 /* Steps of `refine` on the whole polynomial. */
 enum { REFINE_STEPS = 2 };
+
+/* Newton-Raphson: z <- z - P(z)/P'(z), eq 7 of the paper. */
+static struct complex_number newton_step(const struct local_view *view)
+{
+  return complex_divide((struct complex_number){-1.0, 0.0}, view->slope);
+}
+
+/* Laguerre: z <- z - n P / (P' +- sqrt(H)), H = (n-1) [(n-1) P'^2 - n P P''], eq 8 of the paper. Divided by P, with G =
+ * P'/P and K = G^2 - P''/P, the step is -n / (G +- sqrt((n-1) (n K - G^2))). The sign is the one that makes the
+ * denominator larger in modulus. */
+static struct complex_number laguerre_step(const struct local_view *view)
+{
+  const double n = view->degree;
+  const struct complex_number square = complex_multiply(view->slope, view->slope);
+  const struct complex_number under = complex_subtract(complex_scale(n, view->curvature), square);
+  const struct complex_number root = complex_sqrt(complex_scale(n - 1.0, under));
+  const struct complex_number plus = complex_add(view->slope, root), minus = complex_subtract(view->slope, root);
+  const struct complex_number larger = complex_norm(plus) >= complex_norm(minus) ? plus : minus;
+  return complex_divide((struct complex_number){-n, 0.0}, larger);
+}
+
+const struct deflation_method newton_method = {newton_step, false}, laguerre_method = {laguerre_step, true};
 
 /* Where the halves of a quotient meet: in the middle of the terms |c[k]| modulus^k that are nearly the largest. A half
  * is still exact to rounding on either side of such a term, but not beyond the last one. */
@@ -155,7 +175,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
   const double tolerance = options->tolerance * options->tolerance, above = root_problem_reversed_above(options, n);
   const bool relative = options->stop == STOP_ROUNDING; /* the paper's tolerance is absolute */
   double last = INFINITY, checked = INFINITY, longest = LONGEST_STEP;
-  root_problem_tell(options, problem->basis, number, 0, start.re, start.im);
+  root_problem_tell(problem, options, number, 0, start);
   while (!out.converged && out.iterations < options->max_iterations) {
     out.iterations++;
     const struct local_values here = options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x, above)
@@ -187,7 +207,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
       checked = now;
     }
     out.x = complex_add(out.x, move);
-    root_problem_tell(options, problem->basis, number, out.iterations, out.x.re, out.x.im);
+    root_problem_tell(problem, options, number, out.iterations, out.x);
     last = in_u;
   }
   return out;
@@ -220,16 +240,9 @@ static struct complex_number refined(const struct root_problem *problem, const s
   return x;
 }
 
-static void add(const struct root_problem *problem, struct complex_number x, int iterations, bool converged,
-                struct root_estimates *out)
-{
-  root_problem_u_from_x(problem->basis, &x.re, &x.im);
-  root_estimates_add(out, x.re, x.im, iterations, converged, false);
-}
-
 void deflation_find(const struct root_problem *problem, const struct solver_options *options,
                     const struct solver_warm *warm, const struct deflation_method *method, int wanted,
-                    struct root_estimates *out)
+                    struct root_set *out)
 {
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
   struct root_problem rest = *problem;
@@ -247,18 +260,30 @@ void deflation_find(const struct root_problem *problem, const struct solver_opti
     struct sought found;
     if (n == 1) found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};
     else found = seek(&rest, options, method, start, out->count);
-    if (n == 1 || taken_for_real(n, c, found.x)) {
+    const bool real = n == 1 || taken_for_real(n, c, found.x);
+    if (real) {
       found.x.im = 0.0;
       deflation_divide_linear(options->deflation, n, c, found.x.re);
-      n -= 1;
-      const struct complex_number x = options->refine ? refined(problem, method, found.x) : found.x;
-      add(problem, x, found.iterations, found.converged, out);
     } else {
       deflation_divide_quadratic(options->deflation, n, c, 2.0 * found.x.re, complex_norm(found.x));
-      n -= 2;
-      const struct complex_number x = options->refine ? refined(problem, method, found.x) : found.x;
-      add(problem, x, found.iterations, found.converged, out);
-      add(problem, (struct complex_number){x.re, -x.im}, 0, found.converged, out);
     }
+    n -= real ? 1 : 2;
+    const struct complex_number x = options->refine ? refined(problem, method, found.x) : found.x;
+    const struct complex_number u = root_problem_u_from_x(problem->basis, x);
+    const enum root_status status = found.converged ? ROOT_CONVERGED : ROOT_LIMIT;
+    root_set_add(out, (struct root){u.re, u.im, 0.0, found.iterations, status});
+    if (!real) root_set_add(out, (struct root){u.re, -u.im, 0.0, 0, status});
   }
+}
+
+void newton_find(const struct root_problem *problem, const struct solver_options *options,
+                 const struct solver_warm *warm, struct root_set *out)
+{
+  deflation_find(problem, options, warm, &newton_method, problem->degree, out);
+}
+
+void laguerre_find(const struct root_problem *problem, const struct solver_options *options,
+                   const struct solver_warm *warm, struct root_set *out)
+{
+  deflation_find(problem, options, warm, &laguerre_method, problem->degree, out);
 }

@@ -6,9 +6,9 @@
  * method: cubically), linearly to multiple ones. In the reversed chart P = x^n q(1/x), and each factor of the product
  * takes one x.
  */
+#include <string.h>
+
 #include "algebra/root_problem.h"
-#include "algebra/start.h"
-#include "algebra/turn.h"
 
 struct sweep {
   const struct solver_options *options;
@@ -65,35 +65,36 @@ static bool move(struct sweep *sweep, int i)
 }
 
 void durand_kerner_find(const struct root_problem *problem, const struct solver_options *options,
-                        const struct solver_warm *warm, struct root_estimates *out)
+                        const struct solver_warm *warm, struct root_set *out)
 {
   const int n = problem->degree;
   struct sweep sweep = {.options = options, .reversed_above = root_problem_reversed_above(options, n)};
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
   evaluation_prepare(n, problem->basis, problem->c, NULL, &sweep.p);
   start_values(problem, options->radii, warm, n, re, im);
-  out->count = 0;
+  out->count = n;
   for (int i = 0; i < n; i++) {
     sweep.x[i] = sweep.next[i] = (struct complex_number){re[i], im[i]};
     sweep.last[i] = sweep.checked[i] = INFINITY;
-    root_estimates_add(out, 0.0, 0.0, 0, false, false);
-    root_problem_tell(options, problem->basis, i, 0, re[i], im[i]);
+    out->root[i] = (struct root){.status = ROOT_LIMIT};
+    root_problem_tell(problem, options, i, 0, sweep.x[i]);
   }
   bool moving = true;
   for (sweep.number = 1; sweep.number <= options->max_iterations && moving; sweep.number++) {
     moving = false;
     for (int i = 0; i < n; i++) {
-      if (options->rest && out->converged[i]) continue;
-      out->converged[i] = move(&sweep, i);
-      out->iterations[i]++;
-      moving |= !out->converged[i];
-      root_problem_tell(options, problem->basis, i, sweep.number, sweep.next[i].re, sweep.next[i].im);
+      if (options->rest && out->root[i].status == ROOT_CONVERGED) continue;
+      const bool done = move(&sweep, i);
+      out->root[i].status = done ? ROOT_CONVERGED : ROOT_LIMIT;
+      out->root[i].iterations++;
+      moving |= !done;
+      root_problem_tell(problem, options, i, sweep.number, sweep.next[i]);
       if (options->update == UPDATE_GAUSS_SEIDEL) sweep.x[i] = sweep.next[i];
     }
-    for (int i = 0; i < n; i++) sweep.x[i] = sweep.next[i];
+    memcpy(sweep.x, sweep.next, sizeof sweep.x[0] * (size_t)n);
   }
   for (int i = 0; i < n; i++) {
-    out->re[i] = sweep.x[i].re, out->im[i] = sweep.x[i].im;
-    root_problem_u_from_x(problem->basis, &out->re[i], &out->im[i]);
+    const struct complex_number u = root_problem_u_from_x(problem->basis, sweep.x[i]);
+    out->root[i].re = u.re, out->root[i].im = u.im;
   }
 }

@@ -16,6 +16,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "algebra/complex_number.h"
 #include "algebra/polynomial.h"
@@ -37,8 +38,24 @@ struct evaluation {
   double reverse_bound[POLYNOMIAL_MAX_DEGREE + 1];
 };
 
+/* Room in a caller's bound for the rounding of the sums that use it: 2^-40 relative, over 4000 roundings. */
+#define CALLER_BOUND_ROOM (1.0 + 0x1p-40)
+
 /* `error` may be NULL. */
-void evaluation_prepare(int degree, enum basis basis, const double c[], const double error[], struct evaluation *out);
+static inline void evaluation_prepare(int degree, enum basis basis, const double c[], const double error[],
+                                      struct evaluation *out)
+{
+  out->degree = degree;
+  out->basis = basis;
+  for (int k = 0; k <= degree; k++) {
+    const double given = error == NULL ? 0.0 : error[k] * CALLER_BOUND_ROOM;
+    const double size = fabs(c[k]) * UNIT_ROUNDOFF;
+    const int back = degree - k;
+    out->forward[k] = out->reverse[back] = c[k];
+    out->forward_bound[k] = (4 * k + 2) * size + given;
+    out->reverse_bound[back] = (4 * back + 2) * size + given;
+  }
+}
 
 /* q and q' of the chart polynomial at a real chart point z, and bounds on their errors. `reversed`: z is 1/x. */
 struct evaluation_real {
@@ -62,39 +79,31 @@ static inline struct evaluation_real evaluation_at_real(const struct evaluation 
   return out;
 }
 
-/* q of the chart polynomial at a chart point z that is known to 8 U relative, and a bound on the error of q. That of z
- * is included: it is 8 k U in the term of z^k, at most twice the term's weight in the bound. */
+/* q of the chart polynomial at the chart point of x: x, or 1/x where |x|^2 > reversed_above, and a bound on the error of
+ * q. That of z is included: z is known to 8 U, which is 8 k U in the term of z^k, at most twice the term's weight in the
+ * bound. */
 struct evaluation_complex {
   struct complex_number z, value;
   double error;
   bool reversed;
 };
 
-static inline struct evaluation_complex evaluation_in_chart(const struct evaluation *p, struct complex_number z,
-                                                            bool reversed)
+static inline struct evaluation_complex evaluation_at_complex(const struct evaluation *p, struct complex_number x,
+                                                              double reversed_above)
 {
-  struct evaluation_complex out = {.z = z, .reversed = reversed};
-  const double *c = out.reversed ? p->reverse : p->forward;
-  const double *weight = out.reversed ? p->reverse_bound : p->forward_bound;
-  const double modulus = hypot(out.z.re, out.z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
-  out.value = (struct complex_number){c[p->degree], 0.0};
-  out.error = weight[p->degree];
+  const bool reversed = !(complex_norm(x) <= reversed_above);
+  const struct complex_number z = reversed ? complex_divide((struct complex_number){1.0, 0.0}, x) : x;
+  const double *c = reversed ? p->reverse : p->forward;
+  const double *weight = reversed ? p->reverse_bound : p->forward_bound;
+  const double modulus = hypot(z.re, z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
+  struct evaluation_complex out = {z, {c[p->degree], 0.0}, weight[p->degree], reversed};
   for (int k = p->degree - 1; k >= 0; k--) {
-    out.value = complex_multiply(out.value, out.z);
+    out.value = complex_multiply(out.value, z);
     out.value.re += c[k];
     out.error = out.error * modulus + weight[k];
   }
   out.error = 3.0 * (out.error + UNDERFLOW_ERROR);
   return out;
-}
-
-/* As evaluation_in_chart, at the chart point of x: x, or 1/x where |x|^2 > reversed_above. */
-static inline struct evaluation_complex evaluation_at_complex(const struct evaluation *p, struct complex_number x,
-                                                              double reversed_above)
-{
-  const struct complex_number one = {1.0, 0.0};
-  const bool reversed = !(complex_norm(x) <= reversed_above);
-  return evaluation_in_chart(p, reversed ? complex_divide(one, x) : x, reversed);
 }
 
 #endif

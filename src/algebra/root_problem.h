@@ -1,4 +1,4 @@
-/* The input of the table's solvers, and their output. Internal to src/algebra.
+/* What the table's solvers are given, what they return, and what they share. Internal to src/algebra.
  *
  * solver_solve scales the polynomial (largest coefficient in [1/2, 1)), takes out the roots that zero coefficients at
  * its ends show, and leaves the rest: a polynomial q in x of degree 1 or more, with c[0] and c[degree] not zero. In the
@@ -16,18 +16,23 @@
 struct root_problem {
   int degree;
   enum basis basis;
+  int unit;                                /* of x and u: 2^unit in the caller's u; 0 in Bernstein form */
   double c[POLYNOMIAL_MAX_DEGREE + 1];     /* ascending powers of x */
   double error[POLYNOMIAL_MAX_DEGREE + 1]; /* absolute bounds on the coefficients, all 0 where exact */
 };
 
-struct root_estimates {
-  int count;
-  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE]; /* in u; not finite means infinity */
-  int iterations[POLYNOMIAL_MAX_DEGREE];
-  bool converged[POLYNOMIAL_MAX_DEGREE]; /* the stopping rule was met, not the iteration limit */
-  bool cluster[POLYNOMIAL_MAX_DEGREE];   /* of unknown multiplicity, or a pair that may not be real */
-  double reach[POLYNOMIAL_MAX_DEGREE];   /* how far away, in u, the roots that it stands for may be */
-};
+/* A method: writes out->count and out->root. Estimates are in u; one that is not finite means infinity. Their radius is
+ * how far away the roots may be that they stand for. ROOT_LIMIT: the iteration limit came before the stopping rule;
+ * ROOT_CLUSTER: of unknown multiplicity, or a pair that may not be real. warm may be NULL. */
+typedef void solver_method(const struct root_problem *problem, const struct solver_options *options,
+                           const struct solver_warm *warm, struct root_set *out);
+solver_method bernstein_find, newton_find, laguerre_find, durand_kerner_find, aberth_find_baseline, aberth_find_avx2;
+
+/* Adds a root, or drops it if there is no room. */
+static inline void root_set_add(struct root_set *out, struct root root)
+{
+  if (out->count < POLYNOMIAL_MAX_DEGREE) out->root[out->count++] = root;
+}
 
 /* `stop rounding`: the rounding bound of |p| is never sharp, so below it steps go on while they shrink. A step not
  * shorter than the last is noise. After a step that has shrunk by this much (its square against the last one's), the
@@ -41,31 +46,26 @@ static inline double root_problem_reversed_above(const struct solver_options *op
 }
 
 /* Convert x to u, and u to x. The point at infinity of either comes out infinite or NaN. */
-static inline void root_problem_u_from_x(enum basis basis, double *re, double *im)
+static inline struct complex_number root_problem_u_from_x(enum basis basis, struct complex_number x)
 {
-  if (basis == BASIS_POWER) return;
-  const double x = *re, y = *im;
-  if (fabs(x) + fabs(y) < 1.0) { /* x / (1 + x) */
-    const double d = (1.0 + x) * (1.0 + x) + y * y;
-    *re = (x * (1.0 + x) + y * y) / d;
-    *im = y / d;
-  } else { /* 1 - 1/(1 + x), which keeps 1 - u accurate */
-    const double scale = fabs(1.0 + x) + fabs(y);
-    const double a = (1.0 + x) / scale, b = y / scale;
-    const double d = (a * a + b * b) * scale;
-    *re = 1.0 - a / d;
-    *im = b / d;
+  if (basis == BASIS_POWER) return x;
+  if (fabs(x.re) + fabs(x.im) < 1.0) { /* x / (1 + x) */
+    const double d = (1.0 + x.re) * (1.0 + x.re) + x.im * x.im;
+    return (struct complex_number){(x.re * (1.0 + x.re) + x.im * x.im) / d, x.im / d};
   }
+  /* 1 - 1/(1 + x), which keeps 1 - u accurate */
+  const double scale = fabs(1.0 + x.re) + fabs(x.im);
+  const double a = (1.0 + x.re) / scale, b = x.im / scale;
+  const double d = (a * a + b * b) * scale;
+  return (struct complex_number){1.0 - a / d, b / d};
 }
 
-static inline void root_problem_x_from_u(enum basis basis, double *re, double *im)
+static inline struct complex_number root_problem_x_from_u(enum basis basis, struct complex_number u)
 {
-  if (basis == BASIS_POWER) return;
-  const double a = 1.0 - *re, b = -*im; /* 1 - u */
+  if (basis == BASIS_POWER) return u;
+  const double a = 1.0 - u.re, b = -u.im; /* 1 - u */
   const double d = a * a + b * b;
-  const double x = (*re * a + *im * b) / d;
-  *im = *im / d;
-  *re = x;
+  return (struct complex_number){(u.re * a + u.im * b) / d, u.im / d};
 }
 
 /* |u|^2 at x, and |step|^2 in u of a step from x: du = dx / ((1 + x) (1 + x + dx)) in Bernstein form. */
@@ -85,45 +85,77 @@ static inline double root_problem_step_in_u(enum basis basis, struct complex_num
 }
 
 /* Tells the watcher, if there is one, that a root is now at x. */
-static inline void root_problem_tell(const struct solver_options *options, enum basis basis, int root, int step,
-                                     double re, double im)
+static inline void root_problem_tell(const struct root_problem *problem, const struct solver_options *options, int root,
+                                     int step, struct complex_number x)
 {
   if (options->watch == NULL) return;
-  root_problem_u_from_x(basis, &re, &im);
-  options->watch->tell(options->watch->context, root, step, re, im);
+  const struct complex_number u = root_problem_u_from_x(problem->basis, x);
+  options->watch->tell(options->watch->context, root, step, ldexp(u.re, problem->unit), ldexp(u.im, problem->unit));
 }
 
-/* The table of solvers. A row is: name (NAME_find is the method), summary, real roots in [0,1] only, form on lanes,
- * steps allowed per root. The first is the default. */
-#define SOLVERS(ROW)                                                                                                   \
-  ROW(bernstein, "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, SIGNS, 64)     \
-  ROW(newton, "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, NEWTON, 200)    \
-  ROW(laguerre, "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false, LAGUERRE,  \
-      100)                                                                                                             \
-  ROW(aberth, "all roots at once by Aberth's method (eq 9 of the paper)", false, ABERTH, 100)                          \
-  ROW(durand_kerner, "all roots at once by Weierstrass's method: Aberth's without a derivative", false, DURAND_KERNER, \
-      200)
+/* ---- start values (start.c) ---- */
 
-#define SOLVER_FIND(name, summary, real_only, lanes, steps)                                  \
-  void name##_find(const struct root_problem *problem, const struct solver_options *options, \
-                   const struct solver_warm *warm, struct root_estimates *out);
-SOLVERS(SOLVER_FIND)
-#undef SOLVER_FIND
+/* Writes problem->degree distinct finite values in x: those of `warm`, if it holds that many (equal ones are moved
+ * apart), otherwise new ones by `radii`. The first `wanted` of these are enough. warm may be NULL. */
+void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, int wanted,
+                  double out_re[], double out_im[]);
 
-/* Adds an estimate, or drops it if there is no room. */
-static inline void root_estimates_add(struct root_estimates *out, double re, double im, int iterations, bool converged,
-                                      bool cluster)
+/* The geometric mean of the moduli of the roots, in x. */
+double start_mean_modulus(const struct root_problem *problem);
+
+/* ---- all roots at once: roots that are stuck ----
+ *
+ * Symmetric starts (real values seeking a complex pair, pairs seeking two real roots) would never part by themselves.
+ * So every TURN_PERIOD sweeps, a step that is no shorter than STUCK times the step at the last look is turned, by an
+ * angle that no two roots share. A choice of speed only.
+ */
+enum { TURN_PERIOD = 5 };
+#define STUCK 0.9
+
+/* Whether this sweep, counted from 1, looks for stuck roots. */
+static inline bool turn_due(int sweep) { return sweep % TURN_PERIOD == 0; }
+
+/* The step of root number `root`, with |step|^2 in u being `square`. It is turned where the step is no shorter than
+ * STUCK times the one of `checked`, the square at the last look (infinite at first). */
+static inline struct complex_number turn_if_stuck(int root, struct complex_number step, double square, double checked)
 {
-  if (out->count < POLYNOMIAL_MAX_DEGREE) {
-    out->re[out->count] = re;
-    out->im[out->count] = im;
-    out->iterations[out->count] = iterations;
-    out->converged[out->count] = converged;
-    out->cluster[out->count] = cluster;
-    out->reach[out->count] = 0.0;
-    out->count++;
-  }
+  if (!(square >= STUCK * STUCK * checked)) return step;
+  const double angle = 0.3 + 0.37 * root;
+  return complex_multiply(step, (struct complex_number){cos(angle), sin(angle)});
 }
+
+/* ---- one root at a time (deflation.c) ---- */
+
+/* The values at the point x, of a polynomial p of degree n, that an iteration may use. */
+struct local_view {
+  int degree;
+  struct complex_number slope;     /* p'/p */
+  struct complex_number curvature; /* (p'/p)^2 - p''/p; 0 for a method that does not ask for it */
+};
+
+/* An iteration: its step, to be added to x (it need not be finite), and whether it uses the curvature. */
+struct deflation_method {
+  struct complex_number (*step)(const struct local_view *view);
+  bool curved;
+};
+
+/* Eq 7 and eq 8 of the paper. */
+extern const struct deflation_method newton_method, laguerre_method;
+
+/* Finds roots of the problem by `method`, with deflation after each: a real root by its linear factor, a complex one
+ * and its conjugate by their real quadratic (section 3.1 of the paper). Ends when it has `wanted` roots; a conjugate
+ * may be one more. The roots are in the order in which they were found. */
+void deflation_find(const struct root_problem *problem, const struct solver_options *options,
+                    const struct solver_warm *warm, const struct deflation_method *method, int wanted,
+                    struct root_set *out);
+
+/* Divides c, of degree n, by x - a. The quotient has degree n - 1; the remainder is dropped. */
+void deflation_divide_linear(enum deflation how, int n, double c[], double a);
+
+/* Divides c, of degree n >= 2, by x^2 - sum x + product. The quotient has degree n - 2. */
+void deflation_divide_quadratic(enum deflation how, int n, double c[], double sum, double product);
+
+/* ---- the judge (validation.c) ---- */
 
 /* Judges the roots from number `exact` on, which are the estimates for the roots of p. Sets their radius, status and im
  * from the polynomial and its coefficient errors, and drops those that cannot be told from infinity. On entry, status

@@ -7,16 +7,32 @@
 #include <string.h>
 
 #include "algebra/root_problem.h"
+#include "base/kernel.h"
 
 /* eps of eq 10, absolute in the unknown: the smallest at which the paper's plain iterations still stop, because values
  * of size 100 do not move by less. eps and the steps a root may take decide when to stop, never what is true: radii and
  * certificates are made afterwards. */
 #define STOP_TOLERANCE 1e-12
 
-#define SOLVER_ROW(name, summary, real_only, lanes, steps) \
-  {#name, summary, real_only, SOLVER_LANES_##lanes, STOP_TOLERANCE, steps, name##_find},
-static const struct solver solvers[] = {SOLVERS(SOLVER_ROW)};
-#undef SOLVER_ROW
+/* aberth.c is compiled once per instruction set. */
+static void aberth_find(const struct root_problem *problem, const struct solver_options *options,
+                        const struct solver_warm *warm, struct root_set *out)
+{
+  KERNEL_BEST(aberth_find)(problem, options, warm, out);
+}
+
+/* The first is the default. */
+static const struct solver solvers[] = {
+  {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true,
+   SOLVER_LANES_SIGNS, 64, bernstein_find},
+  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false,
+   SOLVER_LANES_NEWTON, 200, newton_find},
+  {"laguerre", "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false,
+   SOLVER_LANES_LAGUERRE, 100, laguerre_find},
+  {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, SOLVER_LANES_ABERTH, 100, aberth_find},
+  {"durand_kerner", "all roots at once by Weierstrass's method: Aberth's without a derivative", false,
+   SOLVER_LANES_DURAND_KERNER, 200, durand_kerner_find},
+};
 
 size_t solver_count(void) { return sizeof solvers / sizeof solvers[0]; }
 
@@ -56,7 +72,7 @@ bool solver_options_paper(const struct solver_options *options) { return has_for
 void solver_options_default(const struct solver *solver, struct solver_options *out)
 {
   *out = (struct solver_options){
-    .solver = solver, .tolerance = solver->tolerance, .max_iterations = solver->max_iterations, .start = START_COLD};
+    .solver = solver, .tolerance = STOP_TOLERANCE, .max_iterations = solver->max_iterations, .start = START_COLD};
   solver_options_form(out, true);
 }
 
@@ -103,9 +119,11 @@ static int unit_of(const struct root_problem *problem, const struct solver_optio
   return isfinite(mean) ? (int)lrint(mean) : 0;
 }
 
-/* Changes to x with u = 2^unit x, and scales by a power of two so that the largest coefficient lies in [1/2, 1). */
-static void scale_problem(struct root_problem *problem, int unit)
+/* Changes to x in the unit of the problem, and scales by a power of two so that the largest coefficient lies in
+ * [1/2, 1). */
+static void scale_problem(struct root_problem *problem)
 {
+  const int unit = problem->unit;
   int largest = INT_MIN;
   for (int k = 0; k <= problem->degree; k++) {
     int exponent;
@@ -120,11 +138,6 @@ static void scale_problem(struct root_problem *problem, int unit)
     if (error > 0.0 || ldexp(problem->c[k], -exponent) != c)
       problem->error[k] += 2 * DBL_TRUE_MIN; /* what underflow may have lost */
   }
-}
-
-static void add_root(struct root_set *out, double re, double im, int iterations, enum root_status status)
-{
-  if (out->count < POLYNOMIAL_MAX_DEGREE) out->root[out->count++] = (struct root){re, im, 0.0, iterations, status};
 }
 
 /* Cuts off the first `low` coefficients and those behind `high`. */
@@ -143,9 +156,9 @@ static int strip_ends(struct root_problem *problem, struct root_set *out)
   while (low < high && problem->c[low] == 0.0 && problem->error[low] == 0.0) low++;
   while (high > low && problem->c[high] == 0.0 && problem->error[high] == 0.0) high--;
   const int above = problem->degree - high;
-  for (int k = 0; k < low; k++) add_root(out, 0.0, 0.0, 0, low > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
+  for (int k = 0; k < low; k++) root_set_add(out, (struct root){.status = low > 1 ? ROOT_CLUSTER : ROOT_CONVERGED});
   for (int k = 0; k < above && problem->basis == BASIS_BERNSTEIN; k++)
-    add_root(out, 1.0, 0.0, 0, above > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
+    root_set_add(out, (struct root){.re = 1.0, .status = above > 1 ? ROOT_CLUSTER : ROOT_CONVERGED});
   cut_problem(problem, low, high);
   return problem->basis == BASIS_BERNSTEIN ? 0 : above;
 }
@@ -161,98 +174,43 @@ static void strip_extremes(struct root_problem *problem, struct root_set *out)
   const double *c = problem->c;
   int low = 0, high = problem->degree;
   for (; low < high && end_is_beyond(EXTREME, c, low, 1, high - low); low++)
-    add_root(out, c[low + 1] == 0.0 ? 0.0 : -c[low] / c[low + 1], 0.0, 0, ROOT_CONVERGED);
+    root_set_add(out, (struct root){.re = c[low + 1] == 0.0 ? 0.0 : -c[low] / c[low + 1], .status = ROOT_CONVERGED});
   for (; high > low && end_is_beyond(EXTREME, c, high, -1, high - low); high--) {
     const double u = problem->basis == BASIS_BERNSTEIN ? 1.0 : -c[high - 1] / c[high];
-    if (isfinite(u)) add_root(out, u, 0.0, 0, ROOT_CONVERGED);
+    if (isfinite(u)) root_set_add(out, (struct root){.re = u, .status = ROOT_CONVERGED});
   }
   cut_problem(problem, low, high);
 }
 
-static void remember(const struct root_estimates *estimates, struct solver_warm *warm)
-{
-  warm->count = 0;
-  for (int i = 0; i < estimates->count; i++) {
-    if (isfinite(estimates->re[i]) && isfinite(estimates->im[i])) {
-      warm->re[warm->count] = estimates->re[i];
-      warm->im[warm->count] = estimates->im[i];
-      warm->count++;
-    }
-  }
-}
-
-/* Measures known roots in units 2^unit larger. */
-static void scale_warm(struct solver_warm *warm, int unit)
-{
-  for (int i = 0; i < warm->count; i++) {
-    warm->re[i] = ldexp(warm->re[i], -unit);
-    warm->im[i] = ldexp(warm->im[i], -unit);
-  }
-}
-
-/* Passes values on to a watcher in u. */
-struct unit_watch {
-  const struct solver_watch *told;
-  int unit;
-};
-
-static void tell_in_u(void *context, int root, int step, double re, double im)
-{
-  const struct unit_watch *watch = context;
-  watch->told->tell(watch->told->context, root, step, ldexp(re, watch->unit), ldexp(im, watch->unit));
-}
-
-/* What is left to solve, in x with u = 2^unit x. */
-struct task {
-  struct root_problem rest; /* the polynomial without its exact roots at the ends */
-  int unit;
-  int exact; /* how many of those are in the answer, as the first ones */
-};
-
-static void ask_solver(const struct root_problem *problem, int unit, const struct solver_options *options,
-                       struct solver_warm *warm, struct root_estimates *out)
-{
-  struct unit_watch in_u = {options->watch, unit};
-  const struct solver_watch watch = {tell_in_u, &in_u};
-  struct solver_options scaled = *options;
-  if (options->watch != NULL) scaled.watch = &watch;
-  const bool previous = options->start == START_PREVIOUS && warm != NULL;
-  if (previous) scale_warm(warm, unit);
-  out->count = 0;
-  options->solver->find(problem, &scaled, previous ? warm : NULL, out);
-  if (!previous) return;
-  remember(out, warm);
-  scale_warm(warm, -unit);
-}
-
-/* Finds the roots in x, with their reach as radius. Returns false where there is nothing to solve. */
+/* Finds the roots in x, with their reach as radius, of what is left of p without its exact roots at the ends, which are
+ * the first ones in the answer. Returns false where there is nothing to solve. */
 static bool find_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
-                       struct task *task, struct root_set *out)
+                       struct root_problem *rest, int *out_exact, struct root_set *out)
 {
   out->count = out->missing = 0;
   if (!worth_solving(p, out)) return false;
-  struct root_problem *rest = &task->rest;
   *rest = (struct root_problem){.degree = p->degree, .basis = p->basis};
   memcpy(rest->c, p->c, sizeof p->c[0] * (size_t)(p->degree + 1));
   if (p->error != NULL) memcpy(rest->error, p->error, sizeof p->error[0] * (size_t)(p->degree + 1));
   const int infinite = strip_ends(rest, out);
-  task->exact = out->count;
-  task->unit = unit_of(rest, options);
-  scale_problem(rest, task->unit);
+  *out_exact = out->count;
+  rest->unit = unit_of(rest, options);
+  scale_problem(rest);
   struct root_problem problem = *rest;
   /* not for a solver of [0,1]: its answer is every root there and no other, which a guess may not be */
   if (!options->solver->real_only) strip_extremes(&problem, out);
   if (problem.degree > 0) {
-    struct root_estimates estimates;
-    ask_solver(&problem, task->unit, options, warm, &estimates);
-    for (int i = 0; i < estimates.count; i++) {
-      if (isfinite(estimates.re[i]) && isfinite(estimates.im[i])) {
-        const enum root_status status = !estimates.converged[i] ? ROOT_LIMIT
-                                        : estimates.cluster[i]  ? ROOT_CLUSTER
-                                                                : ROOT_CONVERGED;
-        add_root(out, estimates.re[i], estimates.im[i], estimates.iterations[i], status);
-        out->root[out->count - 1].radius = estimates.reach[i];
-      }
+    const bool previous = options->start == START_PREVIOUS && warm != NULL;
+    struct root_set found;
+    options->solver->find(&problem, options, previous ? warm : NULL, &found);
+    if (previous) warm->count = 0;
+    for (int i = 0; i < found.count; i++) {
+      const struct root root = found.root[i];
+      if (!isfinite(root.re) || !isfinite(root.im)) continue;
+      root_set_add(out, root);
+      if (!previous) continue;
+      warm->re[warm->count] = ldexp(root.re, rest->unit);
+      warm->im[warm->count++] = ldexp(root.im, rest->unit);
     }
   }
   if (!options->solver->real_only) out->missing = p->degree - infinite - out->count;
@@ -281,20 +239,22 @@ static void roots_in_u(int unit, bool real_only, struct root_set *out)
 void solver_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out)
 {
-  struct task task;
-  if (find_roots(p, options, warm, &task, out)) roots_in_u(task.unit, options->solver->real_only, out);
+  struct root_problem rest;
+  int exact;
+  if (find_roots(p, options, warm, &rest, &exact, out)) roots_in_u(rest.unit, options->solver->real_only, out);
 }
 
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out)
 {
-  struct task task;
-  if (!find_roots(p, options, warm, &task, out)) return;
+  struct root_problem rest;
+  int exact;
+  if (!find_roots(p, options, warm, &rest, &exact, out)) return;
   const bool real_only = options->solver->real_only;
   const int sought = out->count + out->missing;
   struct evaluation evaluation;
-  evaluation_prepare(task.rest.degree, task.rest.basis, task.rest.c, task.rest.error, &evaluation);
-  validation_judge(&evaluation, !real_only, task.exact, out);
+  evaluation_prepare(rest.degree, rest.basis, rest.c, rest.error, &evaluation);
+  validation_judge(&evaluation, !real_only, exact, out);
   if (!real_only) out->missing = sought - out->count;
-  roots_in_u(task.unit, real_only, out);
+  roots_in_u(rest.unit, real_only, out);
 }

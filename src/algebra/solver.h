@@ -54,8 +54,6 @@ struct solver_watch {
 };
 
 struct solver;
-struct root_problem;   /* internal: root_problem.h */
-struct root_estimates; /* internal: root_problem.h */
 
 /* The options of a solver. Filled by solver_options_default, then changed one by one. */
 struct solver_options {
@@ -91,16 +89,17 @@ enum solver_lanes {
   SOLVER_LANES_DURAND_KERNER
 };
 
+struct root_problem; /* internal: root_problem.h */
+
 struct solver {
   const char *name;    /* the keyword in a scene */
   const char *summary; /* one line for `pscn help solver` */
   bool real_only;      /* finds only real roots in [0,1] */
   enum solver_lanes lanes;
-  double tolerance; /* for a bare `solver NAME` */
-  int max_iterations;
+  int max_iterations; /* for a bare `solver NAME` */
   /* The method itself, called by solver_solve. Contract in root_problem.h. */
   void (*find)(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-               struct root_estimates *out);
+               struct root_set *out);
 };
 
 /* The table: bernstein first (the default). */

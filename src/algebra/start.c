@@ -9,7 +9,7 @@
  * upper convex hull of the points (k, log |c[k]|). An edge from k to l stands for l - k roots of modulus about
  * |c[k]/c[l]|^(1/(l-k)), and as many values are spread on the circle of that radius about 0.
  */
-#include "algebra/start.h"
+#include "algebra/root_problem.h"
 
 #include <float.h>
 #include <string.h>
@@ -100,30 +100,28 @@ static void polygon_values(const struct root_problem *problem, int wanted, doubl
   }
 }
 
-static void cold_values(const struct root_problem *problem, enum radii radii, int wanted, double out_re[],
+/* The roots of `warm` in x. Returns false if there are not as many as the problem has, or if one is 0 or infinite. */
+static bool warm_values(const struct root_problem *problem, const struct solver_warm *warm, double out_re[],
                         double out_im[])
 {
-  if (radii == RADII_CIRCLE) circle_values(problem, wanted, out_re, out_im);
-  else polygon_values(problem, wanted, out_re, out_im);
+  if (warm == NULL || warm->count != problem->degree) return false;
+  for (int i = 0; i < warm->count; i++) {
+    const struct complex_number u = {ldexp(warm->re[i], -problem->unit), ldexp(warm->im[i], -problem->unit)};
+    const struct complex_number x = root_problem_x_from_u(problem->basis, u);
+    if (!isfinite(x.re) || !isfinite(x.im) || (x.re == 0.0 && x.im == 0.0)) return false;
+    out_re[i] = x.re;
+    out_im[i] = x.im;
+  }
+  return true;
 }
 
 void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, int wanted,
                   double out_re[], double out_im[])
 {
   const int n = problem->degree;
-  if (warm == NULL || warm->count != n) {
-    cold_values(problem, radii, wanted, out_re, out_im);
+  if (!warm_values(problem, warm, out_re, out_im)) {
+    (radii == RADII_CIRCLE ? circle_values : polygon_values)(problem, wanted, out_re, out_im);
     return;
-  }
-  for (int i = 0; i < n; i++) {
-    double re = warm->re[i], im = warm->im[i];
-    root_problem_x_from_u(problem->basis, &re, &im);
-    if (!isfinite(re) || !isfinite(im) || (re == 0.0 && im == 0.0)) {
-      cold_values(problem, radii, wanted, out_re, out_im);
-      return;
-    }
-    out_re[i] = re;
-    out_im[i] = im;
   }
   for (int i = 0; i < n; i++) {
     for (int j = 0; j < i; j++) {

@@ -219,10 +219,10 @@ static int disc_make(struct judge *judge, uint64_t members)
 /* The square of the distance of two values on the sphere of the numbers x, or u. */
 static double sphere_distance(const struct judge *judge, int i, int j)
 {
-  struct complex_number x[2] = {value_of(judge, i), value_of(judge, j)};
-  for (int k = 0; k < 2; k++) root_problem_x_from_u(judge->p->basis, &x[k].re, &x[k].im);
-  const double apart = distance(x[0], x[1]) /
-                       (hypot(1.0, hypot(x[0].re, x[0].im)) * hypot(1.0, hypot(x[1].re, x[1].im)));
+  const enum basis basis = judge->p->basis;
+  const struct complex_number a = root_problem_x_from_u(basis, value_of(judge, i)),
+                              b = root_problem_x_from_u(basis, value_of(judge, j));
+  const double apart = distance(a, b) / (hypot(1.0, hypot(a.re, a.im)) * hypot(1.0, hypot(b.re, b.im)));
   return isnan(apart) ? INFINITY : apart;
 }
 

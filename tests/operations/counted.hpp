@@ -50,6 +50,7 @@ inline counted cos(counted a) { return std::cos(a.value); }
 inline counted sin(counted a) { return std::sin(a.value); }
 inline counted acos(counted a) { return std::acos(a.value); }
 inline counted exp2(counted a) { return std::exp2(a.value); }
+inline counted ldexp(counted a, int exponent) { return std::ldexp(a.value, exponent); }
 inline counted log2(counted a) { return std::log2(a.value); }
 inline bool isfinite(counted a) { return std::isfinite(a.value); }
 inline bool isnan(counted a) { return std::isnan(a.value); }

@@ -31,20 +31,12 @@
 #undef UNDERFLOW_ERROR
 #define UNDERFLOW_ERROR 0x1p-1057
 #include "algebra/deflation.c"
-#include "algebra/evaluation.c"
-#include "algebra/laguerre.c"
-#include "algebra/newton.c"
-#undef TURN_PERIOD
-#define TURN_PERIOD KERNEL_TURN_PERIOD
-#include "algebra/root_kernel.c"
 #include "algebra/start.c"
 #undef double
 
-root_kernel *root_kernel_best(void) { return root_kernel_baseline; }
-
-static const struct solver newton_row = {"newton", "", false, SOLVER_LANES_NONE, 1e-300, 1, newton_find};
-static const struct solver laguerre_row = {"laguerre", "", false, SOLVER_LANES_NONE, 1e-300, 1, laguerre_find};
-static const struct solver aberth_row = {"aberth", "", false, SOLVER_LANES_NONE, 1e-300, 1, aberth_find};
+static const struct solver newton_row = {"newton", "", false, SOLVER_LANES_NONE, 1, newton_find};
+static const struct solver laguerre_row = {"laguerre", "", false, SOLVER_LANES_NONE, 1, laguerre_find};
+static const struct solver aberth_row = {"aberth", "", false, SOLVER_LANES_NONE, 1, aberth_find_baseline};
 
 // The counter at the first steps of a method: between two of them lies one iteration.
 enum { STEPS = 2 };
@@ -79,7 +71,7 @@ static operations difference(operations a, operations b)
 static operations count(const struct solver *solver, int degree)
 {
   struct root_problem problem = {};
-  struct root_estimates out;
+  struct root_set out;
   struct solver_options options = {};
   unsigned state = 7;
   problem.degree = degree;
@@ -98,11 +90,11 @@ static operations count(const struct solver *solver, int degree)
   counter = {};
   steps = 0;
   if (solver == &aberth_row) {
-    aberth_find(&problem, &options, nullptr, &out);
+    aberth_find_baseline(&problem, &options, nullptr, &out);
     const operations two = counter;
     options.max_iterations = 1;
     counter = {};
-    aberth_find(&problem, &options, nullptr, &out);
+    aberth_find_baseline(&problem, &options, nullptr, &out);
     return difference(two, counter);
   }
   const bool newton = solver == &newton_row;

@@ -22,7 +22,6 @@
 using namespace std; // the atomic types of C
 
 inline counted rint(counted a) { return std::rint(a.value); }
-inline counted ldexp(counted a, int exponent) { return std::ldexp(a.value, exponent); }
 inline counted frexp(counted a, int *exponent) { return std::frexp(a.value, exponent); }
 
 #undef isfinite

@@ -4,9 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "algebra/deflation.h"
 #include "algebra/root_problem.h"
-#include "algebra/start.h"
 #include "cmocka_test.h"
 
 static struct root_set solve(const char *name, int degree, enum basis basis, const double c[], const double error[])
