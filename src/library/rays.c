@@ -7,30 +7,32 @@
 #include "intersect/tracer.h"
 #include "library/library.h"
 
-/* One call: the tracer, and where rays and answers are stored. `failed`: some ray was invalid. */
-struct call {
-  struct tracer *tracer;
-  const struct scene *scene;
-  const char *rays;
-  char *answers;
-  ptrdiff_t ray_stride, answer_stride;
-  char *hits; /* of pscn_all: rows of `most`, row_stride bytes apart */
-  ptrdiff_t row_stride;
-  size_t most;
-  bool failed, short_of_memory;
-};
-
 /* Up to PACKET_SIZE valid rays, and their numbers in the call. */
 struct packet {
   size_t count, number[PACKET_SIZE];
   struct ray rays[PACKET_SIZE];
 };
 
-static const struct pscn_hit NO_HIT = {.t = INFINITY, .patch = PSCN_NO_PATCH};
+/* One call: how rays that can be traced are answered, what is written for one ray, the tracer, and where rays and
+ * answers are stored. */
+struct call {
+  void (*answer)(struct call *call, const struct packet *packet);
+  /* The answer of the tracer, or if `from` is NULL this verdict on a ray that is not traced. */
+  void (*write)(struct call *call, size_t number, enum pscn_verdict verdict, const struct hit *from);
+  struct tracer *tracer;
+  const struct scene *scene;
+  const struct pscn_ray *rays;
+  void *answers;
+  ptrdiff_t ray_stride, answer_stride;
+  struct pscn_hit *hits; /* of pscn_all: rows of `most`, row_stride bytes apart */
+  ptrdiff_t row_stride;
+  size_t most;
+  bool failed, short_of_memory; /* `failed`: some ray was invalid */
+};
 
 static void *answer_at(const struct call *call, size_t number)
 {
-  return call->answers + (ptrdiff_t)number * call->answer_stride;
+  return (char *)call->answers + (ptrdiff_t)number * call->answer_stride;
 }
 
 /* Copies the ray. Returns false if it is invalid. */
@@ -49,74 +51,57 @@ static bool take_ray(const struct pscn_ray *ray, struct ray *out)
   return in_range && moves && ray->t_min >= 0 && !isnan(ray->t_max);
 }
 
-/* ---- the nearest hit ---- */
+/* ---- answers ---- */
 
-static struct pscn_hit make_hit(const struct call *call, const struct hit *from)
+static bool is_certain(enum pscn_verdict verdict, const struct hit *from)
 {
-  struct pscn_hit hit = NO_HIT;
-  hit.certain = from->certainty == CERTAINTY_CERTAIN;
-  if (from->patch == HIT_NONE) return hit;
+  return from ? from->certainty == CERTAINTY_CERTAIN : verdict == PSCN_MISS;
+}
+
+static struct pscn_hit make_hit(const struct call *call, enum pscn_verdict verdict, const struct hit *from)
+{
+  struct pscn_hit hit = {
+    .t = INFINITY, .patch = PSCN_NO_PATCH, .verdict = (int32_t)verdict, .certain = is_certain(verdict, from)};
+  if (!from || from->patch == HIT_NONE) return hit;
   hit.verdict = PSCN_HIT;
-  hit.t = from->t;
-  hit.u = from->u;
-  hit.v = from->v;
+  hit.t = from->t, hit.u = from->u, hit.v = from->v;
   hit.point_error = from->point_error;
   hit.clearance = from->clearance;
   hit.patch = from->patch;
-  for (int k = 0; k < 3; k++) {
-    hit.point[k] = from->point[k];
-    hit.normal[k] = from->normal[k];
-  }
+  memcpy(hit.point, from->point, sizeof hit.point);
+  memcpy(hit.normal, from->normal, sizeof hit.normal);
   points_tangents(call->scene->patches[hit.patch].P, hit.u, hit.v, hit.du, hit.dv);
   return hit;
 }
 
+static void write_nearest(struct call *call, size_t number, enum pscn_verdict verdict, const struct hit *from)
+{
+  const struct pscn_hit hit = make_hit(call, verdict, from);
+  memcpy(answer_at(call, number), &hit, sizeof hit);
+}
+
+static void write_short(struct call *call, size_t number, enum pscn_verdict verdict, const struct hit *from)
+{
+  struct pscn_answer answer = {
+    .t = INFINITY, .patch = PSCN_NO_PATCH, .verdict = (int32_t)verdict, .certain = is_certain(verdict, from)};
+  if (from && from->patch != HIT_NONE) {
+    answer.t = from->t, answer.u = from->u, answer.v = from->v;
+    answer.patch = from->patch, answer.verdict = PSCN_HIT;
+  }
+  memcpy(answer_at(call, number), &answer, sizeof answer);
+}
+
+/* Both of the above. */
 static void answer_nearest(struct call *call, const struct packet *packet)
 {
   struct hit hits[PACKET_SIZE];
   tracer_closest(call->tracer, packet->count, packet->rays, hits);
-  for (size_t k = 0; k < packet->count; k++) {
-    const struct pscn_hit hit = make_hit(call, &hits[k]);
-    memcpy(answer_at(call, packet->number[k]), &hit, sizeof hit);
-  }
+  for (size_t k = 0; k < packet->count; k++) call->write(call, packet->number[k], PSCN_MISS, &hits[k]);
 }
 
-static void write_nearest(struct call *call, size_t number, enum pscn_verdict verdict)
+static void write_occluded(struct call *call, size_t number, enum pscn_verdict verdict, const struct hit *from)
 {
-  struct pscn_hit hit = NO_HIT;
-  hit.verdict = (int32_t)verdict;
-  hit.certain = verdict == PSCN_MISS;
-  memcpy(answer_at(call, number), &hit, sizeof hit);
-}
-
-/* ---- the same in short ---- */
-
-static void write_short(struct call *call, size_t number, enum pscn_verdict verdict)
-{
-  const struct pscn_answer answer = {
-    .t = INFINITY, .patch = PSCN_NO_PATCH, .verdict = (int32_t)verdict, .certain = verdict == PSCN_MISS};
-  memcpy(answer_at(call, number), &answer, sizeof answer);
-}
-
-static void answer_short(struct call *call, const struct packet *packet)
-{
-  struct hit hits[PACKET_SIZE];
-  tracer_closest(call->tracer, packet->count, packet->rays, hits);
-  for (size_t k = 0; k < packet->count; k++) {
-    struct pscn_answer answer = {
-      .t = INFINITY, .patch = PSCN_NO_PATCH, .certain = hits[k].certainty == CERTAINTY_CERTAIN};
-    if (hits[k].patch != HIT_NONE) {
-      answer.t = hits[k].t, answer.u = hits[k].u, answer.v = hits[k].v;
-      answer.patch = hits[k].patch, answer.verdict = PSCN_HIT;
-    }
-    memcpy(answer_at(call, packet->number[k]), &answer, sizeof answer);
-  }
-}
-
-/* ---- any hit ---- */
-
-static void write_occluded(struct call *call, size_t number, enum pscn_verdict verdict)
-{
+  (void)from;
   *(uint8_t *)answer_at(call, number) = (uint8_t)verdict;
 }
 
@@ -125,42 +110,38 @@ static void answer_occluded(struct call *call, const struct packet *packet)
   bool occluded[PACKET_SIZE];
   tracer_occluded(call->tracer, packet->count, packet->rays, occluded);
   for (size_t k = 0; k < packet->count; k++)
-    write_occluded(call, packet->number[k], occluded[k] ? PSCN_HIT : PSCN_MISS);
+    write_occluded(call, packet->number[k], occluded[k] ? PSCN_HIT : PSCN_MISS, NULL);
 }
-
-/* ---- all hits ---- */
 
 /* Writes the count of a ray and its row: the hits of `list` that there is room for, then misses. */
 static void write_list(struct call *call, size_t number, const struct pscn_hits *counts, const struct hit list[])
 {
   const size_t written = counts->count < call->most ? counts->count : call->most;
-  struct pscn_hit rest = NO_HIT;
-  if (counts->verdict == PSCN_NO_ANSWER) rest.verdict = PSCN_NO_ANSWER;
-  else rest.certain = counts->certain;
+  struct pscn_hit rest = make_hit(call, counts->verdict == PSCN_NO_ANSWER ? PSCN_NO_ANSWER : PSCN_MISS, NULL);
+  rest.certain = counts->certain;
   if (call->answers) memcpy(answer_at(call, number), counts, sizeof *counts);
   if (call->most == 0) return;
-  char *row = call->hits + (ptrdiff_t)number * call->row_stride;
-  for (size_t k = 0; k < written; k++) {
-    const struct pscn_hit hit = make_hit(call, &list[k]);
+  char *row = (char *)call->hits + (ptrdiff_t)number * call->row_stride;
+  for (size_t k = 0; k < call->most; k++) {
+    const struct pscn_hit hit = k < written ? make_hit(call, PSCN_HIT, &list[k]) : rest;
     memcpy(row + k * sizeof hit, &hit, sizeof hit);
   }
-  for (size_t k = written; k < call->most; k++) memcpy(row + k * sizeof rest, &rest, sizeof rest);
 }
 
-static void write_all(struct call *call, size_t number, enum pscn_verdict verdict)
+static void write_all(struct call *call, size_t number, enum pscn_verdict verdict, const struct hit *from)
 {
-  write_list(call, number, &(struct pscn_hits){.verdict = (int32_t)verdict, .certain = verdict == PSCN_MISS}, NULL);
+  const struct pscn_hits none = {.verdict = (int32_t)verdict, .certain = is_certain(verdict, from)};
+  write_list(call, number, &none, NULL);
 }
 
 static void answer_all(struct call *call, const struct packet *packet)
 {
   struct hit_list lists[PACKET_SIZE];
-  const bool answered = !call->short_of_memory &&
-                        tracer_all(call->tracer, packet->count, packet->rays, lists) == STATUS_OK;
-  call->short_of_memory = !answered;
+  call->short_of_memory = call->short_of_memory ||
+                          tracer_all(call->tracer, packet->count, packet->rays, lists) != STATUS_OK;
   for (size_t k = 0; k < packet->count; k++) {
-    if (!answered) {
-      write_all(call, packet->number[k], PSCN_NO_ANSWER);
+    if (call->short_of_memory) {
+      write_all(call, packet->number[k], PSCN_NO_ANSWER, NULL);
       continue;
     }
     const struct pscn_hits counts = {.count = lists[k].count,
@@ -172,107 +153,86 @@ static void answer_all(struct call *call, const struct packet *packet)
 
 /* ---- calls ---- */
 
-/* A query: how rays that can be traced are answered, and what is written for the others. */
-struct asked {
-  void (*answer)(struct call *call, const struct packet *packet);
-  void (*write)(struct call *call, size_t number, enum pscn_verdict verdict);
-  bool takes_memory;
-};
-
-static void answer_rays(struct call *call, const struct asked *asked, size_t count)
+static void answer_rays(struct call *call, size_t count)
 {
   struct packet packet;
   packet.count = 0;
   for (size_t number = 0; number < count; number++) {
     struct pscn_ray ray;
-    memcpy(&ray, call->rays + (ptrdiff_t)number * call->ray_stride, sizeof ray);
+    memcpy(&ray, (const char *)call->rays + (ptrdiff_t)number * call->ray_stride, sizeof ray);
     const size_t k = packet.count;
     if (!take_ray(&ray, &packet.rays[k])) {
-      asked->write(call, number, PSCN_NO_ANSWER);
+      call->write(call, number, PSCN_NO_ANSWER, NULL);
       call->failed = true;
     } else if (!(packet.rays[k].t_min < packet.rays[k].t_max)) {
-      asked->write(call, number, PSCN_MISS);
+      call->write(call, number, PSCN_MISS, NULL);
     } else {
       packet.number[k] = number;
       packet.count++;
     }
     if (packet.count == PACKET_SIZE || (packet.count > 0 && number == count - 1)) {
-      asked->answer(call, &packet);
+      call->answer(call, &packet);
       packet.count = 0;
     }
   }
 }
 
-static enum pscn_status ask(const struct pscn_scene *scene, const struct asked *asked, size_t count, struct call *call)
+static enum pscn_status ask(const struct pscn_scene *scene, size_t count, struct call *call)
 {
   if (count == 0) return pscn_scene_status(scene) == PSCN_OK ? PSCN_OK : PSCN_USAGE;
   if (!call->answers && !call->hits) return PSCN_USAGE;
   if (pscn_scene_status(scene) != PSCN_OK || !call->rays || !call->answers) {
-    for (size_t k = 0; k < count; k++) asked->write(call, k, PSCN_NO_ANSWER);
+    for (size_t k = 0; k < count; k++) call->write(call, k, PSCN_NO_ANSWER, NULL);
     return PSCN_USAGE;
   }
   struct calm calm;
   struct tracer tracer;
   calm_begin(&calm);
+  const struct memory_hooks before = memory_use(scene->hooks);
   tracer_begin(scene->intersector, &tracer);
   call->scene = scene->scene;
   call->tracer = &tracer;
-  if (asked->takes_memory) {
-    const struct memory_hooks before = memory_use(scene->hooks);
-    answer_rays(call, asked, count);
-    tracer_end(&tracer);
-    (void)memory_use(before);
-  } else {
-    answer_rays(call, asked, count);
-  }
+  answer_rays(call, count);
+  tracer_end(&tracer);
+  (void)memory_use(before);
   calm_end(&calm);
   if (call->short_of_memory) return PSCN_LIMIT;
   return call->failed ? PSCN_INPUT : PSCN_OK;
 }
 
-static enum pscn_status ask_each(const struct pscn_scene *scene, const struct asked *asked, size_t count,
-                                 const struct pscn_ray *rays, ptrdiff_t ray_stride, void *answers, ptrdiff_t stride)
-{
-  struct call call = {
-    .rays = (const char *)rays, .answers = answers, .ray_stride = ray_stride, .answer_stride = stride};
-  return ask(scene, asked, count, &call);
-}
-
 enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                               ptrdiff_t ray_stride, struct pscn_hit *hits, ptrdiff_t hit_stride)
 {
-  static const struct asked asked = {answer_nearest, write_nearest, false};
-  return ask_each(scene, &asked, count, rays, ray_stride, hits, hit_stride);
+  struct call call = {.answer = answer_nearest, .write = write_nearest, .rays = rays, .ray_stride = ray_stride};
+  call.answers = hits, call.answer_stride = hit_stride;
+  return ask(scene, count, &call);
 }
 
 enum pscn_status pscn_nearest_answer(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                      ptrdiff_t ray_stride, struct pscn_answer *answers, ptrdiff_t answer_stride)
 {
-  static const struct asked asked = {answer_short, write_short, false};
-  return ask_each(scene, &asked, count, rays, ray_stride, answers, answer_stride);
+  struct call call = {.answer = answer_nearest, .write = write_short, .rays = rays, .ray_stride = ray_stride};
+  call.answers = answers, call.answer_stride = answer_stride;
+  return ask(scene, count, &call);
 }
 
 enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                ptrdiff_t ray_stride, uint8_t *verdicts, ptrdiff_t verdict_stride)
 {
-  static const struct asked asked = {answer_occluded, write_occluded, false};
-  return ask_each(scene, &asked, count, rays, ray_stride, verdicts, verdict_stride);
+  struct call call = {.answer = answer_occluded, .write = write_occluded, .rays = rays, .ray_stride = ray_stride};
+  call.answers = verdicts, call.answer_stride = verdict_stride;
+  return ask(scene, count, &call);
 }
 
 enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                           ptrdiff_t ray_stride, struct pscn_hits *counts, ptrdiff_t counts_stride,
                           struct pscn_hit *hits, ptrdiff_t row_stride, size_t most)
 {
-  static const struct asked asked = {answer_all, write_all, true};
-  struct call call = {.rays = (const char *)rays,
-                      .answers = (char *)counts,
-                      .ray_stride = ray_stride,
-                      .answer_stride = counts_stride,
-                      .hits = (char *)hits,
-                      .row_stride = row_stride,
-                      .most = hits ? most : 0};
+  struct call call = {.answer = answer_all, .write = write_all, .rays = rays, .ray_stride = ray_stride};
+  call.answers = counts, call.answer_stride = counts_stride;
+  call.hits = hits, call.row_stride = row_stride, call.most = hits ? most : 0;
   if (!hits && most > 0) call.rays = NULL; /* refused, as other wrong arguments are */
-  return ask(scene, &asked, count, &call);
+  return ask(scene, count, &call);
 }
 
 enum pscn_status pscn_leave(const struct pscn_scene *scene, const struct pscn_ray *ray, const struct pscn_hit *hit,
