@@ -21,7 +21,7 @@ enum { A, B, T, FUNCTIONS };
 /* 24 + 36, and a margin for points slightly outside the square. */
 #define VARIATION 64
 
-enum { STACK_SIZE = 256, NEWTON_STEPS = 12, QUAD_STEPS = 6 };
+enum { STACK_SIZE = 256, NEWTON_STEPS = 12 };
 
 struct box {
   double u0, wu, v0, wv; /* dyadic: exact */
@@ -33,8 +33,7 @@ struct search {
   const double (*P)[4][3];
   const double *origin, *direction;
   double t_max;
-  bool has_quad;
-  struct quad_net net[FUNCTIONS]; /* of the whole patch; valid where has_quad */
+  struct quad_net net[FUNCTIONS]; /* of the whole patch */
   double net_error[FUNCTIONS];
   struct search_result *out;
 };
@@ -49,37 +48,10 @@ static int longest_axis(const double d[3])
   return k;
 }
 
-/* Coefficients in double precision. Each is a sum of products of a difference (one rounding) with an exact number: at
- * most 4 roundings for a and b, and 8 for t, relative to the sum of the terms' sizes. */
-static void box_whole(const struct search *s, struct box *box)
+/* Sets the nets of the whole patch. A coefficient is a sum of products of a difference (one rounding) with an exact
+ * number: at most 4 roundings for a and b, and 8 for t, relative to the sum of the terms' sizes. */
+static void set_nets(struct search *s)
 {
-  const double *d = s->direction;
-  const int k = longest_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
-  const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-  double size[FUNCTIONS] = {0};
-  for (int row = 0; row < 4; row++) {
-    for (int column = 0; column < 4; column++) {
-      double p[3];
-      for (int axis = 0; axis < 3; axis++) p[axis] = s->P[row][column][axis] - s->origin[axis];
-      box->c[A][row][column] = d[k] * p[i] - d[i] * p[k];
-      box->c[B][row][column] = d[k] * p[j] - d[j] * p[k];
-      box->c[T][row][column] = (d[0] * p[0] + d[1] * p[1] + d[2] * p[2]) / square;
-      size[A] = fmax(size[A], fabs(d[k] * p[i]) + fabs(d[i] * p[k]));
-      size[B] = fmax(size[B], fabs(d[k] * p[j]) + fabs(d[j] * p[k]));
-      size[T] = fmax(size[T], (fabs(d[0] * p[0]) + fabs(d[1] * p[1]) + fabs(d[2] * p[2])) / square);
-    }
-  }
-  box->slack[A] = 5 * DOUBLE_UNIT * size[A];
-  box->slack[B] = 5 * DOUBLE_UNIT * size[B];
-  box->slack[T] = 10 * DOUBLE_UNIT * size[T];
-  box->u0 = box->v0 = 0;
-  box->wu = box->wv = 1;
-}
-
-/* The same in quadruple precision. P - origin may round too, so the counts are the same. */
-static void search_need_quad(struct search *s)
-{
-  if (s->has_quad) return;
   const double *d = s->direction;
   const int k = longest_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
   quad square = 0, size[FUNCTIONS] = {0};
@@ -99,14 +71,11 @@ static void search_need_quad(struct search *s)
   s->net_error[A] = 5 * QUAD_UNIT * (double)size[A];
   s->net_error[B] = 5 * QUAD_UNIT * (double)size[B];
   s->net_error[T] = 10 * QUAD_UNIT * (double)size[T];
-  s->has_quad = true;
 }
 
-/* Cuts the box anew from the quadruple-precision net. The slack falls to one rounding of the coefficients in the
- * box. */
-static void box_refresh(struct search *s, struct box *box)
+/* Cuts the box from the nets of the patch. The slack is then one rounding of the coefficients in the box. */
+static void box_cut(const struct search *s, struct box *box)
 {
-  search_need_quad(s);
   for (int f = 0; f < FUNCTIONS; f++) {
     struct quad_net part;
     quad_net_restrict(&s->net[f], box->u0, box->wu, box->v0, box->wv, &part);
@@ -244,58 +213,26 @@ static double row_distance(const double F[4][4], double slack, double x, double 
   return 1.01 * (du + dv) + 13 * slack;
 }
 
-static double cubic_value(const double c[4], double t, double *derivative)
+static bool outside(quad x, double low, double width)
 {
-  const double s = 1 - t;
-  const double p0 = s * c[0] + t * c[1], p1 = s * c[1] + t * c[2], p2 = s * c[2] + t * c[3];
-  const double q0 = s * p0 + t * p1, q1 = s * p1 + t * p2;
-  *derivative = 3 * (q1 - q0);
-  return s * q0 + t * q1;
+  const double overhang = fmin(REFERENCE_BORDER, OVERHANG * width);
+  return x < (quad)low - overhang || x > (quad)low + width + overhang;
 }
 
-/* After a step this short, in box coordinates, the start is right to about the square of it. */
-#define NEWTON_SETTLED 1e-9
-
-/* Newton's method for F = 0 in the box's own coordinates, from its middle. It proves nothing, and only gives a
- * start. */
-static bool newton(const double F[2][4][4], double *out_s, double *out_t)
+/* Newton's method in quadruple precision from the middle of the box, then Krawczyk's test: with Y = J(u,v)^-1, if ||I -
+ * Y J|| <= 1/2 on the square of half-width r and |Y F(u,v)| <= r/2, exactly one zero is in it. The variation of J is
+ * bounded by the second derivatives, which near the unit square are at most 24 M (uu, vv) and 36 M (uv). Returns false if
+ * that proves no root, or if the root is not the box's. */
+static bool prove_root(const struct search *s, const struct box *box, struct search_root *root)
 {
-  double s = 0.5, t = 0.5;
-  for (int step = 0; step < NEWTON_STEPS; step++) {
-    double value[2], du[2], dv[2], ignored;
-    for (int f = 0; f < 2; f++) {
-      double row[4], row_dv[4];
-      for (int i = 0; i < 4; i++) row[i] = cubic_value(F[f][i], t, &row_dv[i]);
-      value[f] = cubic_value(row, s, &du[f]);
-      dv[f] = cubic_value(row_dv, s, &ignored);
-    }
-    const double determinant = du[0] * dv[1] - dv[0] * du[1];
-    const double ds = (value[0] * dv[1] - value[1] * dv[0]) / determinant;
-    const double dt = (value[1] * du[0] - value[0] * du[1]) / determinant;
-    if (!isfinite(ds) || !isfinite(dt)) return false;
-    s -= ds;
-    t -= dt;
-    if (!(fabs(s - 0.5) < 1) || !(fabs(t - 0.5) < 1)) return false;
-    if (fabs(ds) + fabs(dt) < NEWTON_SETTLED) break;
-  }
-  *out_s = s;
-  *out_t = t;
-  return true;
-}
-
-/* Newton's method in quadruple precision from (u,v), then Krawczyk's test: with Y = J(u,v)^-1, if ||I - Y J|| <= 1/2 on
- * the square of half-width r and |Y F(u,v)| <= r/2, exactly one zero is in it. The variation of J is bounded by the
- * second derivatives, which near the unit square are at most 24 M (uu, vv) and 36 M (uv). */
-static bool prove_root(struct search *s, quad u, quad v, struct search_root *root)
-{
-  search_need_quad(s);
+  const quad middle_u = box->u0 + 0.5 * box->wu, middle_v = box->v0 + 0.5 * box->wv;
+  quad u = middle_u, v = middle_v;
   double size[2], error[2];
   for (int f = A; f <= B; f++) {
     size[f] = (double)quad_net_magnitude(&s->net[f]);
     error[f] = s->net_error[f] + QUAD_JET_ROUNDOFFS * QUAD_UNIT * size[f];
   }
-  double reach = 0.5; /* bounds the next step */
-  for (int step = 0; step < QUAD_STEPS; step++) {
+  for (int step = 0; step < NEWTON_STEPS; step++) {
     struct quad_jet a = quad_net_jet(&s->net[A], u, v), b = quad_net_jet(&s->net[B], u, v);
     const quad determinant = a.du * b.dv - a.dv * b.du;
     if (determinant == 0) return false;
@@ -311,27 +248,19 @@ static bool prove_root(struct search *s, quad u, quad v, struct search_root *roo
     const double change = fmax(fabs((double)du), fabs((double)dv));
     double radius = 2.02 * (change + rounding);
     const bool contracts = 6 * rounding + 2 * VARIATION * variation * radius <= CONTRACTION && radius <= OVERHANG;
-    if (contracts && (change <= 4 * rounding || step == QUAD_STEPS - 1)) {
+    if (contracts && (change <= 4 * rounding || step == NEWTON_STEPS - 1)) {
       struct quad_jet t = quad_net_jet(&s->net[T], u, v);
       const double whole = (double)quad_net_magnitude(&s->net[T]);
       *root = (struct search_root){.u = u, .v = v, .t = t.value, .radius = radius};
       root->t_radius = 1.01 * ((fabs((double)t.du) + fabs((double)t.dv)) * radius + s->net_error[T] +
                                (QUAD_JET_ROUNDOFFS * QUAD_UNIT + VARIATION * radius * radius) * whole);
-      return true;
+      return !outside(u, box->u0, box->wu) && !outside(v, box->v0, box->wv);
     }
-    if (!(change <= reach)) return false;
-    reach = fmax(change, 4 * rounding);
     u -= du;
     v -= dv;
-    if (!(u > -0.25 && u < 1.25 && v > -0.25 && v < 1.25)) return false;
+    if (!(quad_abs(u - middle_u) < box->wu && quad_abs(v - middle_v) < box->wv)) return false; /* it leads elsewhere */
   }
   return false;
-}
-
-static bool outside(quad x, double low, double width)
-{
-  const double overhang = fmin(REFERENCE_BORDER, OVERHANG * width);
-  return x < (quad)low - overhang || x > (quad)low + width + overhang;
 }
 
 /* Neighbouring boxes both find a root on their common side. */
@@ -388,11 +317,8 @@ static bool settle(struct search *s, const struct box *box, bool *blurred)
   if (row_distance(F[0], slack[0], 1, 0) > CONTRACTION) return false;
   if (row_distance(F[1], slack[1], 0, 1) > CONTRACTION) return false;
 
-  double x, y;
   struct search_root root;
-  if (!newton((const double(*)[4][4])F, &x, &y)) return false;
-  if (!prove_root(s, box->u0 + (quad)box->wu * x, box->v0 + (quad)box->wv * y, &root)) return false;
-  if (outside(root.u, box->u0, box->wu) || outside(root.v, box->v0, box->wv)) return false;
+  if (!prove_root(s, box, &root)) return false;
   add_root(s->out, &root);
   return true;
 }
@@ -404,13 +330,15 @@ void search_patch(const double P[4][4][3], const double origin[3], const double 
   *out = (struct search_result){.t_undecided = INFINITY};
   struct box stack[STACK_SIZE];
   int depth = 1, visited = 0;
-  box_whole(&s, &stack[0]);
+  set_nets(&s);
+  stack[0] = (struct box){.wu = 1, .wv = 1};
+  box_cut(&s, &stack[0]);
   while (depth > 0) {
     struct box box = stack[--depth];
     bool blurred;
     if (settle(&s, &box, &blurred)) continue;
     if (blurred) {
-      box_refresh(&s, &box);
+      box_cut(&s, &box);
       if (settle(&s, &box, &blurred)) continue;
     }
     double variation[2];
