@@ -181,9 +181,7 @@ static void sweep(struct aberth *a, const struct solver_options *options, int nu
   const bool relative = options->stop == STOP_ROUNDING;
   const double tolerance = options->tolerance * options->tolerance;
   int moving = 0, still_active = 0;
-  const int active_count = a->active_count;
-  int active[POLYNOMIAL_MAX_DEGREE];
-  memcpy(active, a->active, sizeof active[0] * (size_t)active_count);
+  const int active_count = a->active_count, *active = a->active;
   for (int first = 0; first < active_count; first += LANES) {
     const int used = active_count - first < LANES ? active_count - first : LANES;
     lanes xr, xi;
@@ -210,10 +208,8 @@ static void sweep(struct aberth *a, const struct solver_options *options, int nu
       }
     }
   }
-  for (int k = 0; k < active_count; k++) {
-    a->zr[active[k]] = a->next_zr[active[k]];
-    a->zi[active[k]] = a->next_zi[active[k]];
-  }
+  memcpy(a->zr, a->next_zr, sizeof a->zr[0] * (size_t)a->p.degree);
+  memcpy(a->zi, a->next_zi, sizeof a->zi[0] * (size_t)a->p.degree);
   a->active_count = moving > 0 ? still_active : 0;
 }
 
@@ -238,6 +234,7 @@ void KERNEL(aberth_find)(const struct root_problem *problem, const struct solver
   out->count = a.active_count = n;
   for (int i = 0; i < n; i++) {
     a.active[i] = i;
+    a.next_zr[i] = a.zr[i], a.next_zi[i] = a.zi[i];
     a.last_step[i] = a.checked[i] = INFINITY;
     a.noisy[i] = 0;
     out->root[i] = (struct root){.status = ROOT_LIMIT};

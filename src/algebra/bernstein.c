@@ -12,7 +12,6 @@
  * `open_end_reach` says.
  */
 #include <float.h>
-#include <string.h>
 
 #include "algebra/root_problem.h"
 
@@ -297,21 +296,18 @@ static bool examine(struct search *search, const struct interval *part)
   return false;
 }
 
-/* De Casteljau at the middle. The errors go the same way; each mean of two adds a rounding, or what underflows. */
-static void halve(struct interval *part, int n, struct interval *out_right)
+/* De Casteljau at the middle; the right half stays in `part`. The errors go the same way; each mean of two adds a
+ * rounding, or what underflows. */
+static void halve(struct interval *part, int n, struct interval *out_left)
 {
-  out_right->width = part->width = 0.5 * part->width;
-  out_right->low = part->low + part->width;
-  out_right->level = part->level = part->level + 1;
-  double b[POLYNOMIAL_MAX_DEGREE + 1], error[POLYNOMIAL_MAX_DEGREE + 1];
-  const size_t bytes = sizeof b[0] * (size_t)(n + 1);
-  memcpy(b, part->b, bytes);
-  memcpy(error, part->error, bytes);
+  double *b = part->b, *error = part->error;
+  out_left->width = part->width = 0.5 * part->width;
+  out_left->level = part->level = part->level + 1;
+  out_left->low = part->low;
+  part->low += part->width;
   for (int k = 0; k <= n; k++) {
-    part->b[k] = b[0];
-    part->error[k] = error[0];
-    out_right->b[n - k] = b[n - k];
-    out_right->error[n - k] = error[n - k];
+    out_left->b[k] = b[0];
+    out_left->error[k] = error[0];
     for (int i = 0; i < n - k; i++) {
       b[i] = 0.5 * (b[i] + b[i + 1]);
       error[i] = (0.5 * (error[i] + error[i + 1]) + fabs(b[i]) * UNIT_ROUNDOFF) * (1.0 + 4 * UNIT_ROUNDOFF) +
@@ -353,22 +349,10 @@ void bernstein_find(const struct root_problem *problem, const struct solver_opti
   first_interval(problem, &stack[0]);
   for (int seen = 0; top >= 0; seen++) {
     struct interval *part = &stack[top];
-    if (seen >= MOST_INTERVALS) {
-      add_undecided(&search, part);
-      top--;
-    } else if (!examine(&search, part)) {
-      top--;
-    } else {
-      /* The right half stays below the left one. */
-      struct interval *left = &stack[top + 1];
-      left->low = part->low;
-      left->width = part->width;
-      left->level = part->level;
-      memcpy(left->b, part->b, sizeof left->b[0] * (size_t)(problem->degree + 1));
-      memcpy(left->error, part->error, sizeof left->error[0] * (size_t)(problem->degree + 1));
-      halve(left, problem->degree, part);
-      top++;
-    }
+    const bool open = seen < MOST_INTERVALS && examine(&search, part);
+    if (seen >= MOST_INTERVALS) add_undecided(&search, part);
+    if (open) halve(part, problem->degree, &stack[top + 1]); /* the left half comes first */
+    top += open ? 1 : -1;
   }
   flush_cluster(&search);
 }

@@ -101,62 +101,39 @@ struct local_values {
   double size, error; /* |q| in the chart, and its rounding bound */
 };
 
-/* The results asked of `look`. They are constants at every call, so that each gets loops of its own. */
-enum look_for { LOOK_VALUE = 0, LOOK_SLOPE = 1, LOOK_CURVATURE = 2, LOOK_ERROR = 4 };
-
-/* The chart is as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g)
- * and (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
-static inline __attribute__((always_inline)) struct local_values look_inlined(int n, const double c[],
-                                                                              struct complex_number x,
-                                                                              double reversed_above, int wanted)
+/* The values that a method's step needs, or only |q| if `method` is NULL. Without `bounded` the error means nothing. The
+ * chart is as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
+ * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
+static struct local_values look(const struct deflation_method *method, bool bounded, int n, const double c[],
+                                struct complex_number x, double reversed_above)
 {
+  const bool sloped = method != NULL, curved = sloped && method->curved;
   const bool reversed = complex_norm(x) > reversed_above;
   const struct complex_number one = {1.0, 0.0};
   const struct complex_number z = reversed ? complex_divide(one, x) : x;
-  const double modulus = (wanted & LOOK_ERROR) != 0 ? complex_modulus(z) : 0.0;
+  const double modulus = bounded ? complex_modulus(z) : 0.0;
   struct complex_number q = {c[reversed ? 0 : n], 0.0}, slope = {0.0, 0.0}, half_second = {0.0, 0.0};
   double error = (4 * n + 2) * UNIT_ROUNDOFF * fabs(q.re);
   for (int k = n - 1; k >= 0; k--) {
     const double coefficient = c[reversed ? n - k : k];
-    if ((wanted & LOOK_CURVATURE) != 0) half_second = complex_add(complex_multiply(half_second, z), slope);
-    if ((wanted & LOOK_SLOPE) != 0) slope = complex_add(complex_multiply(slope, z), q);
+    if (curved) half_second = complex_add(complex_multiply(half_second, z), slope);
+    if (sloped) slope = complex_add(complex_multiply(slope, z), q);
     q = complex_multiply(q, z);
     q.re += coefficient;
-    if ((wanted & LOOK_ERROR) != 0) error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
+    if (bounded) error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
   }
   struct local_values out = {
     .view = {n, {0.0, 0.0}, {0.0, 0.0}}, .size = complex_small_modulus(q), .error = error + UNDERFLOW_ERROR};
-  if ((wanted & LOOK_SLOPE) == 0) return out;
+  if (!sloped) return out;
   const struct complex_number g = complex_divide(slope, q), zg = complex_multiply(z, g);
   out.view.slope = reversed ? complex_multiply(z, (struct complex_number){n - zg.re, -zg.im}) : g;
-  if ((wanted & LOOK_CURVATURE) != 0) {
+  if (curved) {
     const struct complex_number h = complex_divide(complex_scale(2.0, half_second), q);
     const struct complex_number bend = complex_subtract(complex_multiply(g, g), h), zz = complex_multiply(z, z);
     const struct complex_number b = {n - 2.0 * zg.re, -2.0 * zg.im};
     out.view.curvature = reversed ? complex_multiply(zz, complex_add(b, complex_multiply(zz, bend))) : bend;
   }
   return out;
-}
-
-/* The values that a method's step needs, and the error bound. */
-static struct local_values look_with_error(const struct deflation_method *method, int n, const double c[],
-                                           struct complex_number x, double reversed_above)
-{
-  return method->curved ? look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_CURVATURE | LOOK_ERROR)
-                        : look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_ERROR);
-}
-
-/* The values that a method's step needs. */
-static struct local_values look(const struct deflation_method *method, int n, const double c[], struct complex_number x,
-                                double reversed_above)
-{
-  return method->curved ? look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_CURVATURE)
-                        : look_inlined(n, c, x, reversed_above, LOOK_SLOPE);
-}
-
-static struct local_values look_at_value(int n, const double c[], struct complex_number x)
-{
-  return look_inlined(n, c, x, 1.0, LOOK_VALUE | LOOK_ERROR);
 }
 
 struct sought {
@@ -178,8 +155,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
   root_problem_tell(problem, options, number, 0, start);
   while (!out.converged && out.iterations < options->max_iterations) {
     out.iterations++;
-    const struct local_values here = options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x, above)
-                                                                    : look(method, n, c, out.x, above);
+    const struct local_values here = look(method, relative, n, c, out.x, above);
     if (here.size == 0.0) {
       out.converged = true;
       break;
@@ -215,8 +191,8 @@ static struct sought seek(const struct root_problem *problem, const struct solve
 
 static bool taken_for_real(int n, const double c[], struct complex_number x)
 {
-  const struct local_values at = look_at_value(n, c, x),
-                            on_axis = look_at_value(n, c, (struct complex_number){x.re, 0.0});
+  const struct local_values at = look(NULL, true, n, c, x, 1.0),
+                            on_axis = look(NULL, true, n, c, (struct complex_number){x.re, 0.0}, 1.0);
   /* The two values may be in different charts; |p| = |q| max(1, |x|)^n. */
   const double ratio = fmax(1.0, complex_norm((struct complex_number){x.re, 0.0})) / fmax(1.0, complex_norm(x));
   return on_axis.size <= on_axis.error || on_axis.size * pow(ratio, 0.5 * n) <= at.size;
@@ -227,11 +203,11 @@ static struct complex_number refined(const struct root_problem *problem, const s
                                      struct complex_number x)
 {
   const int n = problem->degree;
-  struct local_values here = look(method, n, problem->c, x, 1.0);
+  struct local_values here = look(method, false, n, problem->c, x, 1.0);
   for (int i = 0; i < REFINE_STEPS && here.size > 0.0; i++) {
     const struct complex_number next = complex_add(x, method->step(&here.view));
     if (!isfinite(next.re) || !isfinite(next.im)) break;
-    const struct local_values there = look(method, n, problem->c, next, 1.0);
+    const struct local_values there = look(method, false, n, problem->c, next, 1.0);
     const double ratio = fmax(1.0, complex_norm(next)) / fmax(1.0, complex_norm(x));
     if (!(there.size * pow(ratio, 0.5 * n) < here.size)) break;
     x = next;
