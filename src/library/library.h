@@ -12,6 +12,7 @@
 #include "base/arena.h"
 #include "base/diagnostics.h"
 #include "base/memory.h"
+#include "base/text_buffer.h"
 #include "intersect/intersect.h"
 #include "language/language.h"
 #include "library/pscn.h"
@@ -20,7 +21,6 @@
 struct message {
   struct message *next;
   struct pscn_message is;
-  const char *shown; /* all of its lines, each with its newline */
 };
 
 struct pscn_scene {
@@ -30,8 +30,8 @@ struct pscn_scene {
   struct arena *arena; /* of the messages */
   struct message *messages, **messages_end;
   size_t message_count;
-  char *text;           /* all messages together, or NULL if there was no memory for that */
-  struct message spare; /* stands for messages that there was no memory for */
+  struct text_buffer text; /* all messages together */
+  struct message spare;    /* stands for messages that there was no memory for */
   struct scene *scene;
   struct language_parts parts;     /* of its text, if it is from one */
   struct intersector *intersector; /* NULL if the scene was not built */

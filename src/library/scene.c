@@ -39,29 +39,36 @@ static void add_message(struct pscn_scene *scene, struct message *message)
   scene->message_count++;
 }
 
+#define MEMORY_IS_SHORT "memory is short"
+#define MEMORY_IS_SHORT_LINE "error: " MEMORY_IS_SHORT "\n"
+
 /* Adds one message for all those that there was no memory for. */
 static void add_spare(struct pscn_scene *scene)
 {
-  if (scene->spare.shown) return;
-  scene->spare = (struct message){.is = {.text = "memory is short", .file = ""}, .shown = "error: memory is short\n"};
+  if (scene->spare.is.text) return;
+  scene->spare = (struct message){.is = {.text = MEMORY_IS_SHORT, .file = ""}};
   add_message(scene, &scene->spare);
+  text_buffer_add_text(&scene->text, MEMORY_IS_SHORT_LINE);
 }
 
 static void keep_message(void *context, const char *text, size_t length)
 {
   struct pscn_scene *scene = context;
   const struct diagnostics_parts *parts = &scene->diagnostics.parts;
-  struct message *message = scene->spare.shown ? NULL : arena_alloc(scene->arena, 1, sizeof *message);
+  struct message *message = scene->spare.is.text ? NULL : arena_alloc(scene->arena, 1, sizeof *message);
   if (message) {
-    message->shown = keep_text(scene->arena, text, length);
     message->is.file = keep_text(scene->arena, text + parts->name_begin, parts->name_end - parts->name_begin);
     message->is.text = keep_text(scene->arena, text + parts->said_begin, parts->said_end - parts->said_begin);
     message->is.line = parts->line;
     message->is.column = parts->column;
     message->is.warning = parts->warning;
   }
-  if (message && message->shown && message->is.file && message->is.text) add_message(scene, message);
-  else add_spare(scene);
+  if (message && message->is.file && message->is.text) {
+    add_message(scene, message);
+    text_buffer_add(&scene->text, text, length);
+  } else {
+    add_spare(scene);
+  }
 }
 
 /* Whether an error was kept. */
@@ -72,27 +79,10 @@ static bool told_error(const struct pscn_scene *scene)
   return false;
 }
 
-static void join_messages(struct pscn_scene *scene)
-{
-  size_t length = 0;
-  for (const struct message *message = scene->messages; message; message = message->next)
-    length += strlen(message->shown);
-  char *end = scene->text = scene->messages ? arena_alloc(scene->arena, length + 1, 1) : NULL;
-  for (const struct message *message = scene->messages; end && message; message = message->next) {
-    const size_t more = strlen(message->shown);
-    memcpy(end, message->shown, more);
-    end += more;
-  }
-}
-
 const char *pscn_scene_messages(const struct pscn_scene *scene)
 {
-  if (!scene) return "error: memory is short\n";
-  if (!scene->messages) return "";
-  if (scene->text) return scene->text;
-  const struct message *message = scene->messages; /* no memory for all: the first error */
-  while (message->is.warning && message->next) message = message->next;
-  return message->shown;
+  if (!scene || scene->text.failed) return MEMORY_IS_SHORT_LINE;
+  return scene->messages ? scene->text.text : "";
 }
 
 size_t pscn_message_count(const struct pscn_scene *scene) { return scene ? scene->message_count : 0; }
@@ -277,7 +267,6 @@ static enum pscn_status create(const struct origin *origin, const struct pscn_op
     scene->diagnostics = (struct diagnostics){.tell = keep_message, .context = scene};
     scene->status = origin->name ? build(scene, origin, options) : wrong(scene, "an argument is NULL");
     if (scene->status != PSCN_OK && !told_error(scene)) add_spare(scene);
-    join_messages(scene);
   }
   calm_end(&calm);
   (void)memory_limit_use(limit_before);
@@ -350,6 +339,7 @@ void pscn_scene_free(struct pscn_scene *scene)
   const struct memory_hooks before = memory_use(scene->hooks);
   intersector_destroy(scene->intersector);
   scene_destroy(scene->scene);
+  text_buffer_free(&scene->text);
   arena_destroy(scene->arena);
   memory_free(scene);
   (void)memory_use(before);
