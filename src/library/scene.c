@@ -159,7 +159,7 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
 
 /* The control points that a scene is made from: with strides, or by indices, then `count` patches for each instance. */
 struct points {
-  const void *first; /* doubles, or floats */
+  const void *first; /* doubles, or floats; NULL: an argument is missing, unless count is 0 */
   bool floats;
   size_t count;
   ptrdiff_t patch_stride, point_stride;
@@ -286,51 +286,45 @@ enum pscn_status pscn_scene_from_text(const char *name, const char *text, size_t
   return create(&(struct origin){text || length == 0 ? name : NULL, text ? text : "", length, NULL}, options, out);
 }
 
-static enum pscn_status from_strided(const void *first, bool floats, size_t count, ptrdiff_t patch_stride,
-                                     ptrdiff_t point_stride, const struct pscn_options *options,
-                                     struct pscn_scene **out)
+static enum pscn_status from_points(const struct points *all, const struct pscn_options *options,
+                                    struct pscn_scene **out)
 {
-  const struct points all = {
-    .first = first, .floats = floats, .count = count, .patch_stride = patch_stride, .point_stride = point_stride};
-  return create(&(struct origin){first || count == 0 ? "<points>" : NULL, "", 0, &all}, options, out);
+  const bool given = (all->first || all->count == 0) && (all->instances || all->instance_count == 0);
+  return create(&(struct origin){given ? "<points>" : NULL, "", 0, all}, options, out);
 }
 
 enum pscn_status pscn_scene_from_points(const double *points, size_t count, ptrdiff_t patch_stride,
                                         ptrdiff_t point_stride, const struct pscn_options *options,
                                         struct pscn_scene **out)
 {
-  return from_strided(points, false, count, patch_stride, point_stride, options, out);
+  const struct points all = {points, false, count, patch_stride, point_stride, NULL, 0, NULL, 0};
+  return from_points(&all, options, out);
 }
 
 enum pscn_status pscn_scene_from_float_points(const float *points, size_t count, ptrdiff_t patch_stride,
                                               ptrdiff_t point_stride, const struct pscn_options *options,
                                               struct pscn_scene **out)
 {
-  return from_strided(points, true, count, patch_stride, point_stride, options, out);
-}
-
-static enum pscn_status from_indexed(const struct points *all, const struct pscn_options *options,
-                                     struct pscn_scene **out)
-{
-  const bool given = all->count == 0 || (all->first && all->index);
-  const bool placed = all->instances || all->instance_count == 0;
-  return create(&(struct origin){given && placed ? "<points>" : NULL, "", 0, all}, options, out);
+  const struct points all = {points, true, count, patch_stride, point_stride, NULL, 0, NULL, 0};
+  return from_points(&all, options, out);
 }
 
 enum pscn_status pscn_scene_from_indexed(const double *vertices, size_t vertex_count, const uint32_t *patches,
                                          size_t count, const double *instances, size_t instance_count,
                                          const struct pscn_options *options, struct pscn_scene **out)
 {
-  const struct points all = {vertices, false, count, 0, 0, patches, vertex_count, instances, instance_count};
-  return from_indexed(&all, options, out);
+  const struct points all = {
+    patches ? vertices : NULL, false, count, 0, 0, patches, vertex_count, instances, instance_count};
+  return from_points(&all, options, out);
 }
 
 enum pscn_status pscn_scene_from_float_indexed(const float *vertices, size_t vertex_count, const uint32_t *patches,
                                                size_t count, const double *instances, size_t instance_count,
                                                const struct pscn_options *options, struct pscn_scene **out)
 {
-  const struct points all = {vertices, true, count, 0, 0, patches, vertex_count, instances, instance_count};
-  return from_indexed(&all, options, out);
+  const struct points all = {
+    patches ? vertices : NULL, true, count, 0, 0, patches, vertex_count, instances, instance_count};
+  return from_points(&all, options, out);
 }
 
 void pscn_scene_free(struct pscn_scene *scene)

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/search.h"
-
 struct patch {
   double P[4][4][3];
   double low[3], high[3];
@@ -31,8 +29,7 @@ struct candidate {
 struct candidates {
   int count;
   struct candidate list[MAX_CANDIDATES];
-  bool undecided;
-  double t_undecided;
+  double t_undecided; /* a hit that is not decided is not before this; INFINITY if there is none */
 };
 
 struct reference *reference_create(const double (*P)[4][4][3], size_t count)
@@ -83,12 +80,7 @@ static bool patch_box_met(const struct patch *patch, const double origin[3], con
       if (low > 0 || high < 0) return false; /* the sign of a rounded difference is exact */
       continue;
     }
-    double near = low / direction[axis], far = high / direction[axis];
-    if (near > far) {
-      const double swap = near;
-      near = far;
-      far = swap;
-    }
+    const double a = low / direction[axis], b = high / direction[axis], near = fmin(a, b), far = fmax(a, b);
     enter = fmax(enter, near - 4 * DOUBLE_UNIT * fabs(near));
     leave = fmin(leave, far + 4 * DOUBLE_UNIT * fabs(far));
   }
@@ -124,7 +116,6 @@ static void collect(const struct reference *reference, const double origin[3], c
                     struct candidates *all)
 {
   all->count = 0;
-  all->undecided = false;
   all->t_undecided = INFINITY;
   double t_max = INFINITY; /* a proven hit, beyond which nothing matters */
   for (size_t n = 0; n < reference->count; n++) {
@@ -133,10 +124,7 @@ static void collect(const struct reference *reference, const double origin[3], c
     if (!patch_box_met(patch, origin, direction, &enter) || enter > t_max) continue;
     struct search_result found;
     search_patch(patch->P, origin, direction, t_max, &found);
-    if (found.undecided) {
-      all->undecided = true;
-      all->t_undecided = fmin(all->t_undecided, found.t_undecided);
-    }
+    all->t_undecided = fmin(all->t_undecided, found.t_undecided);
     double size = 0; /* for REFERENCE_ORIGIN */
     for (int axis = 0; axis < 3; axis++)
       size = fmax(size, fmax(fabs(origin[axis]), fmax(fabs(patch->low[axis]), fabs(patch->high[axis]))));
@@ -148,7 +136,6 @@ static void collect(const struct reference *reference, const double origin[3], c
       judge_parameter(c.root.v, c.root.radius, &c.border, &c.inside);
       if (c.root.t < -(quad)at_origin || (!c.inside && !c.border)) continue;
       if (c.root.t < at_origin || all->count == MAX_CANDIDATES) {
-        all->undecided = true;
         all->t_undecided = fmin(all->t_undecided, 0);
         continue;
       }
@@ -190,7 +177,7 @@ void reference_closest(const struct reference *reference, const double origin[3]
       }
     }
   }
-  if (all.undecided && all.t_undecided <= out->t_first) {
+  if (all.t_undecided < INFINITY && all.t_undecided <= out->t_first) {
     out->verdict = REFERENCE_GRAZING;
     out->t_first = fmax(0, all.t_undecided);
   }

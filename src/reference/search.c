@@ -1,9 +1,7 @@
 /* Zeros of two bicubic functions by hull subdivision, preconditioning and Krawczyk's test. See reference.h. */
-#include "reference/search.h"
+#include "reference/reference.h"
 
 #include <math.h>
-
-#include "reference/reference.h"
 
 enum { A, B, T, FUNCTIONS };
 

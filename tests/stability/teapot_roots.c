@@ -11,7 +11,7 @@
 #include "method_of.h"
 #include "property/world.h"
 #include "random.h"
-#include "reference/search.h"
+#include "reference/reference.h"
 #include "teapot.h"
 
 enum { PAIRS = 100000, LEAST_PAIRS = 8000 };
