@@ -1,4 +1,4 @@
-/* One root at a time: Newton's and Laguerre's methods, and the loop that they share (sections 3.1 and 3.2 of the paper).
+/* One root at a time: Newton's and Laguerre's methods, and the loop that they share (sections 3.1, 3.2 of the paper).
  *
  * A root is sought in the polynomial from which the roots before it have been divided out. The search begins at the
  * first start value of that (or at the i-th root of the previous polynomial, with `start previous`). Forward division
@@ -101,9 +101,9 @@ struct local_values {
   double size, error; /* |q| in the chart, and its rounding bound */
 };
 
-/* The values that a method's step needs, or only |q| if `method` is NULL. Without `bounded` the error means nothing. The
- * chart is as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
- * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
+/* The values that a method's step needs, or only |q| if `method` is NULL. Without `bounded` the error means nothing.
+ * The chart is as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g)
+ * and (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
 static struct local_values look(const struct deflation_method *method, bool bounded, int n, const double c[],
                                 struct complex_number x, double reversed_above)
 {

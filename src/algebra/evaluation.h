@@ -79,8 +79,8 @@ static inline struct evaluation_real evaluation_at_real(const struct evaluation 
   return out;
 }
 
-/* q of the chart polynomial at the chart point of x: x, or 1/x where |x|^2 > reversed_above, and a bound on the error of
- * q. That of z is included: z is known to 8 U, which is 8 k U in the term of z^k, at most twice the term's weight in the
+/* q of the chart polynomial at the chart point z of x: x, or 1/x where |x|^2 > reversed_above, and a bound on the error
+ * of q. The error of z is included: 8 U, which is 8 k U in the term of z^k, at most twice the term's weight in the
  * bound. */
 struct evaluation_complex {
   struct complex_number z, value;

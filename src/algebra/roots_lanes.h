@@ -4,8 +4,8 @@
  * For a caller who proves by himself what he makes of the roots (as with solver_roots): there are no radii and no error
  * bounds. The paper's iterations as printed, their items, and roots that are to be the answer, are in aberth.c,
  * deflation.c and durand_kerner.c. The differences to those are:
- * - Polynomials in scaled Bernstein form are converted to powers of y = 2u - 1. All roots that matter have |y| <= 1, and
- *   the rounding there (mostly 1e-11 of a root, 1e-6 at worst) is small for a start value.
+ * - Polynomials in scaled Bernstein form are converted to powers of y = 2u - 1. All roots that matter have |y| <= 1,
+ *   and the rounding there (mostly 1e-11 of a root, 1e-6 at worst) is small for a start value.
  * - The polynomials are real. P, P' and P'' come from division by a real quadratic, with half the products of Horner's
  *   scheme.
  * - A sweep moves all roots from the same values, so every difference of two roots serves both.

@@ -19,11 +19,10 @@
  * mode, flush-to-zero and floating-point traps have no effect on answers; each call restores them, and the exception
  * flags. Functions return a status. Messages, which say what was wrong and where, are kept with the scene.
  *
- * What an answer promises: of all points where the ray meets the patches, both exactly as given in doubles, a hit is
- * the nearest with t_min < t < t_max; a miss means that there is none. `certain` is 1 where this is proven. It is 0,
- * "grazing", where exact arithmetic within the ray's limit of work does not decide: at a tangency, or if the ray lies in
- * a surface. A hit is then reported wherever one cannot be excluded, except that what may lie on either side of t_min
- * or t_max is left out.
+ * Rays and patches are taken exactly as given in doubles. A hit is the nearest point with t_min < t < t_max where they
+ * meet; a miss means that there is none. `certain` is 1 if this is proven. It is 0, "grazing", if exact arithmetic does
+ * not decide within the ray's limit of work: at a tangency, or if the ray lies in a surface. A hit is then reported
+ * wherever one cannot be excluded, except one that may lie on either side of t_min or t_max.
  *
  * Points no farther apart than 2^-106 of their patches, or 2^-105 of t, count as one t, and the hit is on the patch that
  * comes first. So a ray that crosses a patch nearer than some 1e-32 of its size to the border with another one may be
@@ -34,12 +33,12 @@
  * Both are grazing if the ray touches a patch at such a point.
  *
  * t of a certain hit is off by no more than four times what one rounding of each number of the ray and the patch can
- * change it. In tests with cusps, poles, folds and near tangencies no t was off by more than 3e-16 of itself. u and v
- * are as exact as the surface is steep: where the ray sees it edge-on, or it has a cusp, they have fewer digits.
+ * change it. In tests with cusps, poles and near tangencies no t was off by more than 3e-16 of itself. Where the ray
+ * sees the surface edge-on, or the surface has a cusp, u and v have fewer digits.
  *
  * The work for one ray is limited. If it runs out, the answer is grazing: the nearest hit known by then, or a miss;
- * pscn_occluded reports a hit. (Of patches whose solver says `polish off`, nothing is proven. Of roots no farther apart
- * than that solver's errors, any one may be the answer, and not the same one in every call.)
+ * pscn_occluded reports a hit. (Nothing is proven for patches whose solver says `polish off`. Among roots no
+ * farther apart than that solver's errors, any one may be the answer, and not the same one in every call.)
  *
  * The numbers of scenes and rays are at most 1e100, or they are refused: those of a text, control points, origins and
  * directions, but not t_min and t_max. Coordinates below 1e-100 are read as 0.
@@ -129,10 +128,10 @@ struct pscn_options {
   size_t number_count;
   int image_width, image_height; /* the values of these words in the text; 0: 800 and 600 */
   struct pscn_memory memory;
-  /* 1: the text is a stranger's. It includes only files in its folder (of a text: that in its name, if any) and in
+  /* 1: the text is not trusted. It includes only files in its folder (of a text: the one in its name, if any) and in
    * `folders`, or below them, wherever links lead. It may not say `solver`, and has at most 64 lights. Its #debug and
-   * the like are messages, a thousand at most. If max_memory is 0, it is 256 MB. (Reading ends after max_work, and each
-   * ray after some 10 ms, in any case. How many rays are traced is the caller's affair.) */
+   * the like are messages, a thousand at most. If max_memory is 0, it is 256 MB. (In any case reading ends after
+   * max_work, and each ray after some 10 ms. The number of rays is up to the caller.) */
   int32_t untrusted;
   int32_t lenient; /* 1: what pscn does not support of POV-Ray's language is left out, with warnings */
   double clock;    /* the value of that word in the text */
@@ -180,7 +179,7 @@ PSCN_API enum pscn_status pscn_scene_from_float_indexed(const float *vertices, s
                                                         size_t instance_count, const struct pscn_options *options,
                                                         struct pscn_scene **out);
 
-/* Only when no call uses the scene any more. NULL is allowed. */
+/* Frees a scene that no call uses any more. NULL is allowed. */
 PSCN_API void pscn_scene_free(struct pscn_scene *scene);
 
 /* The status that building the scene returned. */
@@ -220,8 +219,8 @@ PSCN_API enum pscn_status pscn_object(const struct pscn_scene *scene, size_t pat
 PSCN_API enum pscn_status pscn_bounds(const struct pscn_scene *scene, size_t number, double out[2][3]);
 
 /* Points of patches: S, its derivatives, and the unit normal along dS/du x dS/dv or, where that is 0, its limit from
- * inside the patch; 0 if there is none. Right to roundings of the patch's size. Strides as for rays, below. A place with
- * u or v outside [0,1], or of no patch, gets numbers that are none, and the call returns PSCN_INPUT. */
+ * inside the patch; 0 if there is none. Exact to a few roundings of the patch's size. Strides are as for rays,
+ * below. For a place of no patch, or with u or v outside [0,1], all numbers are NAN and the call returns PSCN_INPUT. */
 struct pscn_place {
   double u, v;
   uint32_t patch, reserved;
@@ -244,11 +243,11 @@ PSCN_API void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_came
  *
  * Each call reads `count` rays, ray k at rays + k ray_stride, and writes as many answers. Strides are in bytes, so a
  * ray or an answer may be a member of the caller's own structure. A stride may be 0 or negative where that makes sense.
- * A call is fastest with many rays, neighbouring ones side by side. It takes up to 1 MB of stack, for
- * hard rays (0.7 MB is the most that was measured); building a scene takes 0.1 MB.
+ * A call is fastest with many rays, neighbouring ones side by side. Hard rays take up to 1 MB of stack
+ * (0.7 MB is the most that was measured); building a scene takes 0.1 MB.
  *
  * The status is PSCN_OK; PSCN_INPUT if some ray is invalid: it gets the verdict PSCN_NO_ANSWER, and the others are
- * answered; or PSCN_USAGE if the scene was not built or a pointer is NULL: all that can be written then gets no answer.
+ * answered; or PSCN_USAGE if the scene was not built or a pointer is NULL: all rays that can be then get that verdict.
  */
 struct pscn_ray {
   double origin[3];
@@ -260,7 +259,7 @@ struct pscn_ray {
   double t_min, t_max;
 };
 
-/* What a ray starts from, so that none of its members is forgotten: origin and direction are 0, the range is all. */
+/* Initializes a ray, so that no member is forgotten: origin and direction are 0, the range is everything. */
 #define PSCN_RAY                      \
   {                                   \
     {0, 0, 0}, {0, 0, 0}, 0, INFINITY \
@@ -275,11 +274,11 @@ enum pscn_verdict { PSCN_MISS = 0, PSCN_HIT = 1, PSCN_NO_ANSWER = 2 };
 struct pscn_hit {
   double t;            /* in units of the direction's length */
   double u, v;         /* of the whole patch, in [0,1] */
-  double point[3];     /* S(u,v), a little more exact than origin + t direction */
+  double point[3];     /* S(u,v), slightly more exact than origin + t direction */
   double point_error;  /* bound on the distance from `point` to the exact surface */
   double clearance;    /* see pscn_leave */
   double normal[3];    /* of unit length, facing the ray's origin; against the ray if the surface has none */
-  double du[3], dv[3]; /* dS/du, dS/dv, to roundings of the patch's size */
+  double du[3], dv[3]; /* dS/du, dS/dv, to a few roundings of the patch's size */
   uint32_t patch;
   int32_t verdict;  /* enum pscn_verdict */
   int32_t certain;  /* 1: proven; 0: grazing, or no answer */
@@ -290,7 +289,7 @@ struct pscn_hit {
 PSCN_API enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                        ptrdiff_t ray_stride, struct pscn_hit *hits, ptrdiff_t hit_stride);
 
-/* The same in 40 bytes where point and normal are not needed, which is faster. */
+/* The same in 40 bytes, without point and normal: faster. */
 struct pscn_answer {
   double t, u, v;
   uint32_t patch;
@@ -310,8 +309,8 @@ PSCN_API enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t c
  * therefore starts inside a closed surface if `count` is odd, and outside if it is even. Grazing: possible hits are
  * counted too, up to 64, each with its own `certain` 0; or the ray's work ran out, and some hits are not counted.
  *
- * Where this and pscn_nearest are certain, the first hit is the same, except for last places. Where only pscn_nearest
- * is, its hit may be a possible one here, as in a corner of an open surface, or be missing, if the work ran out. */
+ * If this and pscn_nearest are certain, the first hit is the same, except for last places. If only pscn_nearest is, its
+ * hit may be a possible one here, as in a corner of an open surface, or missing, because the work ran out. */
 struct pscn_hits {
   size_t count;
   int32_t verdict; /* PSCN_HIT where count > 0 */
@@ -321,25 +320,25 @@ struct pscn_hits {
 /* All hits of each ray in order of t: their number, and the first `most` of them. Those of ray k are stored one after
  * another from hits + k row_stride; the rest of the `most` are written as misses. If only the number matters, `most`
  * may be 0 and `hits` NULL. This call allocates temporary memory by the scene's hooks, which several threads may then
- * call at once. If there is too little, it returns PSCN_LIMIT, and rays without an answer get the verdict
+ * call at once. If there is too little, it returns PSCN_LIMIT, and rays that were not answered get the verdict
  * PSCN_NO_ANSWER. */
 PSCN_API enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                    ptrdiff_t ray_stride, struct pscn_hits *counts, ptrdiff_t counts_stride,
                                    struct pscn_hit *hits, ptrdiff_t row_stride, size_t most);
 
-/* An origin for a ray that leaves the surface at the `hit` of `ray` along `direction`, such as a shadow ray or a mirrored
- * one: a point of `ray` itself, before the hit, from which the surface is `clearance` away; or where `ray` starts, if
- * that is nearer. Of a certain hit nothing lies between the ray's start and this point. So where surfaces close a space
- * in, a ray from this point is in the same space as the ray's start, even in an acute crease. (Proven up to the
+/* An origin for a ray that leaves the surface at the `hit` of `ray` along `direction`, such as a shadow or a mirrored
+ * ray: a point of `ray` itself, before the hit, from which the surface is `clearance` away; or where `ray` starts, if
+ * that is nearer. If the hit is certain, nothing lies between the ray's start and this point. So where surfaces close a
+ * space in, a ray from this point is in the same space as the ray's start, even in an acute crease. (Proven up to the
  * rounding of the point, by 2^-51 of its coordinates. Another surface may lie within that only if the ray runs along it
  * at an angle with 1/64 of the sine of the angle at the hit, or less. Next to a border of the patch even that is
- * excluded, by tracing a ray back from the point. Light that lies within the clearance before a surface may be missed.)
+ * excluded, by tracing a ray back from the point. Light within the clearance before a surface may be missed.)
  *
- * If `direction` points to the other side, the point lies as far behind the hit, and nothing is proven: what is nearer
- * to the surface is skipped. pscn_all skips nothing. Any thread may call this; it allocates nothing.
+ * If `direction` points to the other side, the point lies as far behind the hit, and nothing is proven: surfaces nearer
+ * to it are skipped. pscn_all skips nothing. Any thread may call this; it allocates nothing.
  *
- * PSCN_USAGE if `hit` is none, a pointer is NULL, or the scene was not built, and PSCN_INPUT if the ray is invalid; the
- * origin is then not a number. */
+ * PSCN_USAGE if `hit` is not a hit, a pointer is NULL, or the scene was not built, and PSCN_INPUT if the ray is
+ * invalid; the origin is then NAN. */
 PSCN_API enum pscn_status pscn_leave(const struct pscn_scene *scene, const struct pscn_ray *ray,
                                      const struct pscn_hit *hit, const double direction[3], double out_origin[3]);
 

@@ -20,7 +20,7 @@ const char *pscn_status_text(enum pscn_status status)
   case PSCN_INPUT: return "the scene or a ray is wrong";
   case PSCN_FILE: return "a file cannot be read";
   case PSCN_LIMIT: return "out of memory or beyond a limit";
-  default: return "no status of pscn's";
+  default: return "unknown status";
   }
 }
 

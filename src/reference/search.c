@@ -219,8 +219,8 @@ static bool outside(quad x, double low, double width)
 
 /* Newton's method in quadruple precision from the middle of the box, then Krawczyk's test: with Y = J(u,v)^-1, if ||I -
  * Y J|| <= 1/2 on the square of half-width r and |Y F(u,v)| <= r/2, exactly one zero is in it. The variation of J is
- * bounded by the second derivatives, which near the unit square are at most 24 M (uu, vv) and 36 M (uv). Returns false if
- * that proves no root, or if the root is not the box's. */
+ * bounded by the second derivatives, which near the unit square are at most 24 M (uu, vv) and 36 M (uv). Returns false
+ * if that proves no root, or if the root is not the box's. */
 static bool prove_root(const struct search *s, const struct box *box, struct search_root *root)
 {
   const quad middle_u = box->u0 + 0.5 * box->wu, middle_v = box->v0 + 0.5 * box->wv;
