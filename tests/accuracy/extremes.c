@@ -30,7 +30,7 @@ static void uneven(struct random *random, size_t index, size_t thinnest, int far
   }
   for (int n = 0; n < RAYS; n++) {
     double at[3], d[3], away = choose(random, 3) ? 1 : random_decade(random, -9, 3);
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
+    situation_point(s, 0, random_unit(random), random_unit(random), at);
     random_direction(random, d);
     for (int axis = 0; axis < 3; axis++) {
       d[axis] *= choose(random, 2) ? factor[axis] : 1;
@@ -58,7 +58,7 @@ void extreme_met_poles(struct random *random, size_t index, struct situation *s)
   for (int n = 0; n < RAYS; n++) {
     double d[3], along[3];
     random_vector(random, 1, d);
-    net_point((const double(*)[4][3])s->P[n % (int)s->count], 1e-9, random_unit(random), along);
+    situation_point(s, (size_t)n % s->count, 1e-9, random_unit(random), along);
     if (choose(random, 3) == 0)
       for (int axis = 0; axis < 3; axis++)
         d[axis] = 1e9 * along[axis] + (choose(random, 2) ? random_decade(random, 3, 30) * d[axis] : 0);
@@ -79,7 +79,7 @@ void extreme_far_origins(struct random *random, size_t index, struct situation *
     const double far = index % 2 ? 1.7e308 : pow(10, (double)choose(random, 300));
     const size_t axis = choose(random, 3);
     double at[3];
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
+    situation_point(s, 0, random_unit(random), random_unit(random), at);
     s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
     memcpy(s->rays[n].origin, at, sizeof at);
     const double sign = choose(random, 2) ? 1 : -1;
@@ -98,7 +98,7 @@ void extreme_far_oblique(struct random *random, size_t index, struct situation *
   s->count = 1;
   gentle(random, choose(random, 2) ? 1 : 20, s->P[0]);
   const double u = choose(random, 2) ? random_unit(random) : 1 - random_decade(random, 4, 18);
-  net_point((const double(*)[4][3])s->P[0], u, random_unit(random), at);
+  situation_point(s, 0, u, random_unit(random), at);
   for (int n = 0; n < RAYS; n++) {
     random_vector(random, 1, d);
     s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};

@@ -76,7 +76,7 @@ static void degenerate(struct random *random, size_t index, struct situation *s)
   for (int n = 0; n < RAYS; n++) {
     double at[3];
     const double u = choose(random, 4) ? random_unit(random) : (double)choose(random, 2), v = random_unit(random);
-    net_point((const double(*)[4][3])s->P[n % (int)s->count], u, v, at);
+    situation_point(s, (size_t)n % s->count, u, v, at);
     ray_round(random, at, choose(random, 3) ? 0 : ring_radius(random, size), size > 0 ? size : 1, &s->rays[n]);
   }
 }
@@ -96,7 +96,7 @@ static void thin(struct random *random, size_t index, struct situation *s)
   }
   for (int n = 0; n < RAYS; n++) {
     double at[3];
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
+    situation_point(s, 0, random_unit(random), random_unit(random), at);
     ray_round(random, at, choose(random, 2) ? 0 : width * random_unit(random), 1, &s->rays[n]);
   }
 }
@@ -120,8 +120,7 @@ static void pole_starts(struct random *random, size_t index, struct situation *s
   place_pole(random, index, s);
   for (int n = 0; n < RAYS; n++) {
     double at[3];
-    net_point((const double(*)[4][3])s->P[0], random_decade(random, 2, 16) * random_unit(random), random_unit(random),
-              at);
+    situation_point(s, 0, random_decade(random, 2, 16) * random_unit(random), random_unit(random), at);
     start_beside(random, at, situation_size(s), &s->rays[n]);
   }
 }
@@ -134,7 +133,7 @@ static void surface_starts(struct random *random, size_t index, struct situation
     double at[3];
     const double u = choose(random, 4) ? random_unit(random) : (double)choose(random, 2);
     const double v = choose(random, 4) ? random_unit(random) : (double)choose(random, 2);
-    net_point((const double(*)[4][3])s->P[0], u, v, at);
+    situation_point(s, 0, u, v, at);
     start_beside(random, at, situation_size(s), &s->rays[n]);
   }
 }
@@ -176,7 +175,7 @@ static void coincident(struct random *random, size_t index, struct situation *s)
   }
   for (int n = 0; n < RAYS; n++) {
     double at[3];
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
+    situation_point(s, 0, random_unit(random), random_unit(random), at);
     ray_round(random, at, ring_radius(random, 1), 1, &s->rays[n]);
   }
 }

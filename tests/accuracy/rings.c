@@ -73,7 +73,7 @@ static void rays_round(struct random *random, double u, double v, struct situati
 {
   double at[3];
   const double size = situation_size(s);
-  net_point((const double(*)[4][3])s->P[0], u, v, at);
+  situation_point(s, 0, u, v, at);
   for (int n = 0; n < RAYS; n++) ray_round(random, at, ring_radius(random, size), size, &s->rays[n]);
 }
 
@@ -165,7 +165,7 @@ void ring_rulings(struct random *random, size_t index, struct situation *s)
   for (int n = 0; n < RAYS; n++) {
     double start[3], end[3], d[3];
     const double v = choose(random, 3) ? random_unit(random) : (double)choose(random, 9) / 8;
-    net_point((const double(*)[4][3])s->P[0], 0, v, start), net_point((const double(*)[4][3])s->P[0], 1, v, end);
+    situation_point(s, 0, 0, v, start), situation_point(s, 0, 1, v, end);
     for (int axis = 0; axis < 3; axis++) d[axis] = end[axis] - start[axis];
     ray_past(random, start, ring_radius(random, 1), 1, d, &s->rays[n]);
   }
@@ -175,7 +175,7 @@ void ring_rulings(struct random *random, size_t index, struct situation *s)
 static void rays_tangent(struct random *random, double u, double v, double tilt, struct situation *s, struct ray *ray)
 {
   double at[3], du[3], dv[3], d[3];
-  net_point((const double(*)[4][3])s->P[0], u, v, at);
+  situation_point(s, 0, u, v, at);
   net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
   const double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
   for (int axis = 0; axis < 3; axis++) {
@@ -231,7 +231,7 @@ void ring_unbent_tangents(struct random *random, size_t index, struct situation 
     }
     bends(s, at[0], at[1], du, dv, b);
     const double along = -b[1] + sqrt(fmax(b[1] * b[1] - b[0] * b[2], 0));
-    net_point((const double(*)[4][3])s->P[0], at[0], at[1], point);
+    situation_point(s, 0, at[0], at[1], point);
     for (int axis = 0; axis < 3; axis++) d[axis] = (along * du[axis] + b[0] * dv[axis]) / (fabs(along) + fabs(b[0]));
     ray_past(random, point, ring_radius(random, situation_size(s)), 1, d, &s->rays[n]);
   }
@@ -270,7 +270,7 @@ void ring_open_borders(struct random *random, size_t index, struct situation *s)
     double at[3];
     const double along = choose(random, 5) ? random_unit(random) : (double)choose(random, 2);
     const double end = choose(random, 3) ? 1 : 0;
-    net_point((const double(*)[4][3])s->P[0], n % 2 ? along : end, n % 2 ? end : along, at);
+    situation_point(s, 0, n % 2 ? along : end, n % 2 ? end : along, at);
     ray_round(random, at, choose(random, 2) ? random_decade(random, 14, 18) : ring_radius(random, 1), 1, &s->rays[n]);
   }
 }

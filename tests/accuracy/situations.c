@@ -19,8 +19,7 @@ static void rays_at_patch(struct random *random, struct situation *s)
   for (int n = 0; n < RAYS; n++) {
     double origin[3], target[3];
     random_vector(random, 6, origin);
-    net_point((const double(*)[4][3])s->P[0], random_between(random, -0.1, 1.1), random_between(random, -0.1, 1.1),
-              target);
+    situation_point(s, 0, random_between(random, -0.1, 1.1), random_between(random, -0.1, 1.1), target);
     ray_between(origin, target, &s->rays[n]);
   }
 }
@@ -100,8 +99,8 @@ static void ruling(struct random *random, size_t index, struct situation *s)
   bilinear(random, s->P[0]);
   for (int n = 0; n < RAYS; n++) {
     double origin[3], target[3], start[3], end[3], u = (double)(random_bits(random) % 9) / 8;
-    net_point((const double(*)[4][3])s->P[0], n % 2 ? u : 0, n % 2 ? 0 : u, start);
-    net_point((const double(*)[4][3])s->P[0], n % 2 ? u : 1, n % 2 ? 1 : u, end);
+    situation_point(s, 0, n % 2 ? u : 0, n % 2 ? 0 : u, start);
+    situation_point(s, 0, n % 2 ? u : 1, n % 2 ? 1 : u, end);
     for (int axis = 0; axis < 3; axis++) {
       origin[axis] = 2 * start[axis] - end[axis];
       target[axis] = end[axis] + (n < RAYS / 2 ? 0 : decade(index, 1, 16) * random_between(random, -1, 1));
@@ -153,7 +152,7 @@ static void tangent(struct random *random, size_t index, struct situation *s)
   gentle(random, 1, s->P[0]);
   for (int n = 0; n < RAYS; n++) {
     double u = random_unit(random), v = random_unit(random), target[3], du[3], dv[3], normal[3], origin[3];
-    net_point((const double(*)[4][3])s->P[0], u, v, target);
+    situation_point(s, 0, u, v, target);
     net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
     for (int axis = 0; axis < 3; axis++) {
       const int i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -241,7 +240,7 @@ static void cusped(struct random *random, size_t index, struct situation *s)
   rays_at_patch(random, s);
   for (int n = 0; n < RAYS / 4; n++) {
     double target[3], v = random_unit(random);
-    net_point((const double(*)[4][3])s->P[0], index % 2 ? v : 0.5, index % 2 ? 0.5 : v, target);
+    situation_point(s, 0, index % 2 ? v : 0.5, index % 2 ? 0.5 : v, target);
     ray_between(s->rays[n].origin, target, &s->rays[n]);
   }
 }
@@ -318,7 +317,7 @@ static void sized(struct random *random, size_t index, struct situation *s)
     double origin[3], target[3];
     random_vector(random, 6 * scale, origin);
     for (int axis = 0; axis < 3; axis++) origin[axis] += shift;
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), target);
+    situation_point(s, 0, random_unit(random), random_unit(random), target);
     ray_between(origin, target, &s->rays[n]);
   }
 }
@@ -350,8 +349,7 @@ static void far_camera(struct random *random, size_t index, struct situation *s)
   for (int n = 0; n < RAYS; n++) {
     double origin[3], target[3];
     random_vector(random, 1e8, origin);
-    net_point((const double(*)[4][3])s->P[0], random_between(random, -0.1, 1.1), random_between(random, -0.1, 1.1),
-              target);
+    situation_point(s, 0, random_between(random, -0.1, 1.1), random_between(random, -0.1, 1.1), target);
     ray_between(origin, target, &s->rays[n]);
   }
 }
@@ -363,7 +361,7 @@ static void silhouette(struct random *random, double width, struct situation *s)
   gentle(random, 1.5, s->P[0]);
   double target[3], du[3], dv[3], origin[3];
   const double u = random_between(random, 0.1, 0.9), v = random_between(random, 0.1, 0.9);
-  net_point((const double(*)[4][3])s->P[0], u, v, target);
+  situation_point(s, 0, u, v, target);
   net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
   const double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
   for (int axis = 0; axis < 3; axis++) origin[axis] = target[axis] - 2 * along * du[axis] - 2 * across * dv[axis];
@@ -394,7 +392,7 @@ static void on_surface(struct random *random, size_t index, struct situation *s)
   gentle(random, 2, s->P[0]);
   for (int n = 0; n < RAYS; n++) {
     double start[3], direction[3], off = n % 2 ? 0 : decade(index, 3, 17);
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), start);
+    situation_point(s, 0, random_unit(random), random_unit(random), start);
     random_vector(random, 1, direction);
     for (int axis = 0; axis < 3; axis++) start[axis] += off * direction[axis];
     ray_along(start, direction, &s->rays[n]);

@@ -19,6 +19,12 @@ struct situation {
   struct ray rays[SITUATION_RAYS];
 };
 
+/* S(u,v) of patch n. */
+static inline void situation_point(const struct situation *s, size_t n, double u, double v, double out[3])
+{
+  net_point((const double(*)[4][3])s->P[n], u, v, out);
+}
+
 struct situation_class {
   const char *name;
   uint64_t seed; /* to start `random` with */

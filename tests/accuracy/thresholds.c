@@ -120,7 +120,7 @@ void threshold_large_and_small(struct random *random, size_t index, struct situa
     for (int axis = 0; axis < 3; axis++) s->P[0][k / 4][k % 4][axis] *= large;
   for (size_t n = 1; n < s->count; n++) {
     double middle[3];
-    net_point((net)s->P[0], random_unit(random), random_unit(random), middle);
+    situation_point(s, 0, random_unit(random), random_unit(random), middle);
     if (choose(random, 2)) memset(middle, 0, sizeof middle);
     gentle(random, 1, s->P[n]);
     for (int k = 0; k < 16; k++)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "method_of.h"
 #include "property/world.h"
 
 enum { SEED = 20240514, SCENES = 3, MOST_HITS = 200 };
@@ -396,10 +397,8 @@ TEST(test_worn)
   static struct kept alone;
   struct random random = {SEED + 7};
   struct world world;
-  struct method options;
+  const struct method options = method_of("bernstein { split 16 }");
   int grazing = 0, wrong = 0;
-  method_default(solver_find("bernstein", 9), &options);
-  options.split = 16;
   for (int p = 0; p < PATCHES; p++)
     for (int n = 0; n < 16; n++) nets[p][n / 4][n % 4][1] = (n / 4 - 1.5) * 0.1 * p + (n % 4 - 1) * 0.1;
   world_open(&world, nets, PATCHES, &options);

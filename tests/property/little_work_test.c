@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "method_of.h"
 #include "property/world.h"
 
 enum { SEED = 20261122 };
@@ -109,10 +110,8 @@ TEST(of_twins_none_is_tried)
 TEST(a_point_takes_little)
 {
   world_net nets[2];
-  struct method fine;
+  const struct method fine = method_of("bernstein { split 64 }");
   struct world world;
-  method_default(solver_at(0), &fine);
-  fine.split = 64;
   sheet(0, nets[1]);
   for (int k = 0; k < 16; k++) memcpy(nets[0][k / 4][k % 4], (const double[3]){0.1, 0.3, -1}, sizeof nets[0][0][0]);
   world_open(&world, nets, 2, &fine);
@@ -243,7 +242,8 @@ TEST(of_what_lies_in_a_plane_little_is_looked_at)
  * a few. */
 TEST(solvers_are_charged)
 {
-  static const char *const names[] = {"aberth", "durand_kerner", "newton", "laguerre"};
+  static const char *const names[] = {"aberth { form paper }", "durand_kerner { form paper }", "newton { form paper }",
+                                      "laguerre { form paper }"};
   enum { MOST_SOLVED = 40 };
   static world_net nets[NETS];
   for (size_t n = 0; n < NETS; n++)
@@ -253,9 +253,7 @@ TEST(solvers_are_charged)
       memcpy(nets[n][i][j], at, sizeof at);
     }
   for (int way = 0; way < 4; way++) {
-    struct method method;
-    method_default(solver_find(names[way], strlen(names[way])), &method);
-    method_item_find("form")->set(&method, 0);
+    struct method method = method_of(names[way]);
     method.roots.tolerance = 1e-300, method.roots.max_iterations = 10000;
     struct world world;
     world_open(&world, nets, NETS, &method);

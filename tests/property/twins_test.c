@@ -31,9 +31,7 @@ static bool same_surface(world_net P, world_net Q)
 
 /* A scene of patches that lie on each other, and one without those that lie on earlier ones. */
 struct pair {
-  struct scene scene[2];
-  struct intersector *intersector[2];
-  struct tracer *tracer[2];
+  struct world world[2];
   uint32_t first[MOST];   /* for each patch of the second scene, its index in the first one; */
   size_t times[MOST];     /* how many patches of the first scene are that surface; */
   uint32_t surface[MOST]; /* for each patch of the first scene, its surface in the second */
@@ -46,19 +44,19 @@ static void twins_fill(struct pair *pair, struct random *random, world_net nets[
     for (size_t n = 1 + random_bits(random) % TIMES; n > 0; n--) order[most++] = p;
   random_shuffle(random, most, order);
   for (size_t k = 0; k < most; k++) {
-    struct scene_patch *patch = &pair->scene[0].patches[k];
+    struct scene_patch *patch = &pair->world[0].scene.patches[k];
     in_order(nets[order[k]], (int)(random_bits(random) % 8), patch->P);
     for (int n = 0; n < 48; n++)
       if (patch->P[n / 12][n / 3 % 4][n % 3] == 0 && random_bits(random) % 2) patch->P[n / 12][n / 3 % 4][n % 3] = -0.0;
     patch->solver = (uint32_t)(random_bits(random) % solver_count);
   }
-  pair->scene[0].patch_count = most;
+  pair->world[0].scene.patch_count = most;
 }
 
 /* Leaves out of the second scene the patches that lie on earlier ones. */
 static void twins_leave(struct pair *pair)
 {
-  struct scene *all = &pair->scene[0], *few = &pair->scene[1];
+  struct scene *all = &pair->world[0].scene, *few = &pair->world[1].scene;
   uint32_t surface[MOST];
   assert_int_equal(surfaces_find(all->patches, sizeof *all->patches, all->patch_count, surface), STATUS_OK);
   for (size_t k = 0; k < all->patch_count; k++) {
@@ -71,41 +69,27 @@ static void twins_leave(struct pair *pair)
   }
 }
 
-static void pair_prepare(struct pair *pair)
-{
-  for (int k = 0; k < 2; k++) {
-    assert_int_equal(intersector_create(&pair->scene[k], &pair->intersector[k]), STATUS_OK);
-    assert_int_equal(tracer_create(pair->intersector[k], &pair->tracer[k]), STATUS_OK);
-  }
-}
-
 /* far: the number of small patches far away that are added. */
 static void pair_open(struct pair *pair, struct random *random, world_net nets[], size_t count, size_t far,
                       struct method solvers[], size_t solver_count)
 {
   memset(pair, 0, sizeof *pair);
   for (int k = 0; k < 2; k++) {
-    pair->scene[k] = (struct scene){.solvers = solvers, .solver_count = solver_count};
-    pair->scene[k].patches = calloc(MOST + far, sizeof *pair->scene[k].patches);
-    assert_non_null(pair->scene[k].patches);
+    pair->world[k].scene = (struct scene){.solvers = solvers, .solver_count = solver_count};
+    pair->world[k].scene.patches = calloc(MOST + far, sizeof *pair->world[k].scene.patches);
+    assert_non_null(pair->world[k].scene.patches);
   }
   twins_fill(pair, random, nets, count, solver_count);
   twins_leave(pair);
   for (size_t p = 0; p < far; p++) {
     struct scene_patch patch = {0};
     for (int n = 0; n < 48; n++) patch.P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(random, 0, 0.01);
-    for (int k = 0; k < 2; k++) pair->scene[k].patches[pair->scene[k].patch_count++] = patch;
+    for (int k = 0; k < 2; k++) pair->world[k].scene.patches[pair->world[k].scene.patch_count++] = patch;
   }
-  pair_prepare(pair);
+  for (int k = 0; k < 2; k++) world_prepare(&pair->world[k]);
 }
 
-static void pair_close(struct pair *pair)
-{
-  for (int k = 0; k < 2; k++) {
-    tracer_destroy(pair->tracer[k]), intersector_destroy(pair->intersector[k]);
-    free(pair->scene[k].patches);
-  }
-}
+static void pair_close(struct pair *pair) { world_close(&pair->world[0]), world_close(&pair->world[1]); }
 
 /* Every hit of the scene without twins occurs as often as its surface does. */
 static void assert_all_there(const struct pair *pair, const struct hit_list *all, const struct hit_list *few)
@@ -129,7 +113,7 @@ static void compare(const struct pair *pair, int kind, struct random *random, wo
   size_t hits = 0, certain = 0;
   struct asked asked;
   for (int n = 0; n < RAYS; n += ASKED_RAYS) {
-    world_ask_both(pair->tracer, random, nets, count, n, &asked);
+    world_ask_both((struct tracer *[]){pair->world[0].tracer, pair->world[1].tracer}, random, nets, count, n, &asked);
     for (int l = 0; l < ASKED_RAYS; l++) {
       const struct hit_list *all = &asked.list[0][l], *few = &asked.list[1][l];
       struct hit *hit = &asked.hit[1][l];
@@ -202,24 +186,23 @@ TEST(that_are_copies)
   in_order(nets[1], 5, nets[count]);
   for (int k = 0; k < 2; k++) {
     objects[k] = (struct scene_object){nets, k == 0 ? count + 1 : count};
-    pair.scene[k] = (struct scene){.solvers = &solver, .solver_count = 1};
-    copies_fill(&pair.scene[k], &objects[k], k == 0);
+    pair.world[k].scene = (struct scene){.solvers = &solver, .solver_count = 1};
+    copies_fill(&pair.world[k].scene, &objects[k], k == 0);
   }
-  pair_prepare(&pair);
-  for (int k = 0; k < 2; k++) assert_true(pair.tracer[k]->model->copy_count > COPIES / 2);
+  for (int k = 0; k < 2; k++) world_prepare(&pair.world[k]);
+  for (int k = 0; k < 2; k++) assert_true(pair.world[k].tracer->model->copy_count > COPIES / 2);
   size_t hits = 0;
   for (int n = 0; n < RAYS; n++) {
     struct ray ray = world_ray(&random, nets, count, n % RAY_KINDS);
     struct hit hit[2];
-    const struct scene_copy *copy = &pair.scene[0].copies[random_bits(&random) % pair.scene[0].copy_count];
+    const struct scene_copy *copy = &pair.world[0].scene.copies[random_bits(&random) % pair.world[0].scene.copy_count];
     for (int k = 0; k < 3; k++) ray.origin[k] += copy->b[k];
-    for (int k = 0; k < 2; k++) tracer_closest(pair.tracer[k], 1, &ray, &hit[k]);
+    for (int k = 0; k < 2; k++) tracer_closest(pair.world[k].tracer, 1, &ray, &hit[k]);
     if (hit[0].patch != HIT_NONE) hits++, hit[0].patch %= (uint32_t)count + 1;
     if (hit[1].patch != HIT_NONE) hit[1].patch %= (uint32_t)count;
     assert_same_hit("copies", WORLD_DOME, &ray, &hit[0], &hit[1]);
   }
   assert_true(hits > RAYS / 2);
-  for (int k = 0; k < 2; k++) free(pair.scene[k].copies);
   pair_close(&pair);
 }
 

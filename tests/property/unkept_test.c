@@ -18,19 +18,13 @@ enum { SEED = 20261122, RAYS = 400, MANY = 70000 };
 
 /* The nets alone, or with small patches far away added: one leaf each in both cases. With a floor added too, so wide
  * that the small ones are in a tree of their own. */
-struct side {
-  struct scene scene;
-  struct intersector *intersector;
-  struct tracer *tracer;
-};
-
 #define FLOOR 0x1p33
 
-static void side_open(struct side *side, struct method *solver, world_net nets[], size_t count, size_t far,
+static void side_open(struct world *side, struct method *solver, world_net nets[], size_t count, size_t far,
                       bool floored)
 {
   struct random random = {SEED};
-  *side = (struct side){.scene = {.solvers = solver, .solver_count = 1, .patch_count = count + far + floored}};
+  *side = (struct world){.scene = {.solvers = solver, .solver_count = 1, .patch_count = count + far + floored}};
   side->scene.patches = calloc(count + far + floored, sizeof *side->scene.patches);
   assert_non_null(side->scene.patches);
   struct scene_patch *patch = side->scene.patches;
@@ -44,18 +38,10 @@ static void side_open(struct side *side, struct method *solver, world_net nets[]
                               : 1; /* of the far ones: tiny ones have a tree besides that of what is on the floor */
   for (size_t p = 0; p < far; p++, patch++)
     for (int n = 0; n < 48; n++) patch->P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(&random, 0, size);
-  assert_int_equal(intersector_create(&side->scene, &side->intersector), STATUS_OK);
-  assert_int_equal(tracer_create(side->intersector, &side->tracer), STATUS_OK);
+  world_prepare(side);
   assert_true((side->tracer->model->leaves != NULL) == (far == 0));
   const size_t inner = side->tracer->model->inner_count;
   if (far > 0) assert_true(floored ? inner > 1 : inner == 0);
-}
-
-static void side_close(struct side *side)
-{
-  tracer_destroy(side->tracer);
-  intersector_destroy(side->intersector);
-  free(side->scene.patches);
 }
 
 static int compare(int kind, struct tracer *const tracers[2], struct random *random, world_net nets[], size_t count)
@@ -92,7 +78,7 @@ static void answers_are_the_same(void **state)
   for (size_t n = 0; n < sizeof ways / sizeof ways[0]; n++) {
     const int kind = (int)ways[n].kind;
     struct method solver = method_of(ways[n].solver);
-    struct side sides[2];
+    struct world sides[2];
     const size_t count = world_fill(ways[n].kind, &random, nets);
     for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY, kind % 2);
     struct tracer anew; /* remembers no leaves, unlike the other one, and makes each anew */
@@ -101,7 +87,7 @@ static void answers_are_the_same(void **state)
                      compare(kind, (struct tracer *[]){sides[0].tracer, &anew}, &random, nets, count);
     tracer_end(&anew);
     assert_true(hits > RAYS / 16);
-    for (int k = 0; k < 2; k++) side_close(&sides[k]);
+    for (int k = 0; k < 2; k++) world_close(&sides[k]);
   }
 }
 
@@ -147,7 +133,7 @@ static void take_peak(const char *path, struct peak *out)
 {
   const struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = NAN};
   struct diagnostics diagnostics = {0};
-  struct side side;
+  struct world side;
   struct scene *scene;
   out->before = peak_bytes();
   assert_int_equal(language_load(path, &settings, &diagnostics, &scene), STATUS_OK);

@@ -134,6 +134,11 @@ void world_open(struct world *world, world_net *nets, size_t count, const struct
   assert_non_null(world->scene.patches);
   world->scene.patch_count = count;
   for (size_t p = 0; p < count; p++) memcpy(world->scene.patches[p].P, nets[p], sizeof nets[p]);
+  world_prepare(world);
+}
+
+void world_prepare(struct world *world)
+{
   assert_int_equal(intersector_create(&world->scene, &world->intersector), STATUS_OK);
   assert_int_equal(tracer_create(world->intersector, &world->tracer), STATUS_OK);
 }
@@ -142,7 +147,7 @@ void world_close(struct world *world)
 {
   tracer_destroy(world->tracer);
   intersector_destroy(world->intersector);
-  free(world->scene.patches);
+  free(world->scene.patches), free(world->scene.copies);
 }
 
 /* The point and the derivatives of a net. */

@@ -36,6 +36,9 @@ size_t world_fill(enum world_kind kind, struct random *random, world_net nets[WO
 
 /* Copies the nets and prepares the scene; options == NULL means the default. Asserts that this succeeds. */
 void world_open(struct world *world, world_net *nets, size_t count, const struct method *options);
+
+/* Prepares the scene that the caller has filled, whose patches and copies world_close frees. */
+void world_prepare(struct world *world);
 void world_close(struct world *world);
 
 /* A ray at the nets, of one of RAY_KINDS kinds: through the interior; at borders, corners and lines of constant u

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "method_of.h"
 #include "property/world.h"
 
 enum { SEED = 20261122, MOST_PATCHES = 1000, RAYS = 24 };
@@ -206,12 +207,10 @@ TEST(what_is_not_looked_at_hides)
 {
   static world_net nets[ARCHES + 1];
   struct world world;
-  struct method whole;
+  const struct method whole = method_of("bernstein { split 1 }");
   struct ray rays[PACKET_SIZE];
   bool occluded[PACKET_SIZE], alone;
   tunnel(nets);
-  method_default(solver_at(0), &whole);
-  whole.split = 1;
   world_open(&world, nets, ARCHES + 1, &whole);
   for (int n = 0; n < PACKET_SIZE; n++) rays[n] = (struct ray){{1e-3 * n, 0.1, -2}, {1e-6, 1e-6, 1}, 0, INFINITY};
   rays[0] = (struct ray){{0, 0.1, ARCHES + 5}, {-1e-6, -1e-6, -1}, 0, INFINITY};
@@ -312,10 +311,8 @@ TEST(boxes_and_leaves_made_are_counted)
 {
   enum { STRAWS, POINT, KINDS, HARD = 8 };
   world_net *nets = calloc(CROWD, sizeof *nets);
-  struct method whole;
+  const struct method whole = method_of("bernstein { split 1 }");
   assert_non_null(nets);
-  method_default(solver_at(0), &whole);
-  whole.split = 1;
   for (int kind = 0; kind < KINDS; kind++) {
     struct random random = {SEED + (uint64_t)kind};
     struct ray rays[PACKET_SIZE];

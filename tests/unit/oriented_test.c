@@ -5,19 +5,15 @@
 #include <string.h>
 
 #include "cmocka_test.h"
-#include "geometry/patch.h"
 #include "intersect/lanes/view.h"
-#include "intersect/prepare/leaf.h"
 #include "lanes_main.h"
-#include "random.h"
+#include "unit/lane_subject.h"
 
 enum { SEED = 20261123, CASES = 20000 };
 
-struct subject {
-  double rest[3][4][4];
-  struct model_patch patch;
+struct viewed {
+  struct subject s; /* but for its packet */
   struct model_tree tree;
-  struct leaf leaf;
   double error; /* how far the true surface may be from the leaf */
   struct oriented_box box;
   struct packet packet[PACKETS];
@@ -37,45 +33,30 @@ static double parameter(struct random *random)
 }
 
 /* The largest distance of a control point from the sixth one, in one coordinate: at least half of the extent. */
-static double leaf_size(const struct subject *s)
+static double leaf_size(const struct viewed *s)
 {
   double size = 0;
   for (int k = 0; k < 3; k++)
-    for (int i = 0; i < 16; i++) size = fmax(size, s->patch.scale * fabs(s->leaf.x[k][i] - s->leaf.x[k][5]));
+    for (int i = 0; i < 16; i++) size = fmax(size, s->s.patch.scale * fabs(s->s.leaf.x[k][i] - s->s.leaf.x[k][5]));
   return size;
 }
 
-/* Makes a leaf of any shape, flat or slender, of a patch cut into many or few; exact, or off by up to an eighth of its
- * size. */
-static void make_leaf(struct random *random, bool off, struct subject *s)
+/* Makes a leaf of any shape, exact, or off by up to an eighth of its size. */
+static void make_leaf(struct random *random, bool off, struct viewed *s)
 {
-  const int kind = (int)(random_bits(random) % 3);
-  const uint16_t side = (uint16_t)(1 << random_bits(random) % 6);
-  s->patch = (struct model_patch){.scale = power(random, -30, 30), .cut = {.split = {side, side}}};
-  s->patch.rest = (const double(*)[4][4])s->rest;
-  memset(s->rest, 0, sizeof s->rest);
-  for (int k = 0; k < 3; k++) {
-    s->patch.center[k] = s->patch.scale * rint(random_between(random, -20, 20));
-    for (int n = 0; n < 16; n++) {
-      double x = random_between(random, -1, 1);
-      if (kind == 1) x = k == 0 ? n / 4 / 4.0 : k == 1 ? n % 4 / 4.0 : n % 4 / 8.0;
-      if (kind == 2) x = (k == 0 ? n / 4 / 2.0 - 0.75 : 0) + x * 0x1p-7;
-      s->patch.x[k][n / 4][n % 4] = x;
-    }
-  }
-  leaf_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), &s->leaf);
+  subject_make(random, 5, 0, &s->s);
   /* a tree that holds it, not much larger, or far larger */
   s->tree.frame = exp2(ceil(log2(leaf_size(s)))) * power(random, 1, 14);
   for (int k = 0; k < 3; k++)
-    s->tree.origin[k] = s->patch.center[k] + s->patch.scale * s->leaf.x[k][5] +
+    s->tree.origin[k] = s->s.patch.center[k] + s->s.patch.scale * s->s.leaf.x[k][5] +
                         s->tree.frame * random_between(random, -0.25, 0.25);
   s->error = off ? leaf_size(s) * power(random, -20, -3) : 0;
-  leaf_orient(&s->tree, s->error, &s->patch, s->leaf.slab, &s->box);
+  leaf_orient(&s->tree, s->error, &s->s.patch, s->s.leaf.slab, &s->box);
 }
 
 /* Ray `number` goes through a point of the leaf that is off by up to its error, moved aside by `aside` across the ray.
  * *out_t is where it is met. */
-static void make_ray(struct random *random, struct subject *s, unsigned number, double aside, double *out_t)
+static void make_ray(struct random *random, struct viewed *s, unsigned number, double aside, double *out_t)
 {
   const double u = parameter(random), v = parameter(random);
   const double scale = power(random, -10, 10), away = s->tree.frame * power(random, -20, 24);
@@ -86,11 +67,11 @@ static void make_ray(struct random *random, struct subject *s, unsigned number, 
   if (random_bits(random) % 4 == 0) direction[random_bits(random) % 3] *= 0x1p-40;
   *out_t = away / scale / sqrt(square);
   const double across[3] = {direction[1], -direction[0], 0};
+  double at[3];
+  subject_point(&s->s, u, v, at);
   for (int k = 0; k < 3; k++) {
-    double net[4][4];
-    memcpy(net, s->leaf.x[k], sizeof net);
     const double off = s->error > 0 ? s->error * random_between(random, -1, 1) : 0;
-    const double point = s->patch.center[k] + s->patch.scale * patch_evaluate(net, u, v).value + off;
+    const double point = s->s.patch.center[k] + s->s.patch.scale * at[k] + off;
     p->direction[k][lane] = scale * direction[k];
     p->origin[k][lane] = point + aside * across[k] / sqrt(square) - *out_t * p->direction[k][lane];
   }
@@ -98,7 +79,7 @@ static void make_ray(struct random *random, struct subject *s, unsigned number, 
   p->t_max[lane] = random_bits(random) % 2 ? INFINITY : *out_t * random_between(random, 1 + 0x1p-50, 2);
 }
 
-static void look(struct subject *s)
+static void look(struct viewed *s)
 {
   for (int h = 0; h < PACKETS; h++) {
     struct packet *p = &s->packet[h];
@@ -114,7 +95,7 @@ static void rays_that_meet_the_leaf_pass_its_box(void **state)
   (void)state;
   struct random random = {SEED};
   for (int n = 0; n < CASES; n++) {
-    struct subject s = {.packet = {{.t_error = {0}}}};
+    struct viewed s = {.packet = {{.t_error = {0}}}};
     double t[FLOAT_LANES];
     make_leaf(&random, n % 2 == 1, &s);
     for (unsigned k = 0; k < FLOAT_LANES; k++) make_ray(&random, &s, k, 0, &t[k]);
@@ -134,7 +115,7 @@ static void rays_that_do_not_are_told(void **state)
   struct random random = {SEED + 1};
   int asked = 0, told = 0, alike = 0;
   for (int n = 0; n < CASES / 4; n++) {
-    struct subject s = {.packet = {{.t_error = {0}}}};
+    struct viewed s = {.packet = {{.t_error = {0}}}};
     double t[FLOAT_LANES];
     make_leaf(&random, false, &s);
     for (unsigned k = 0; k < FLOAT_LANES; k++) make_ray(&random, &s, k, 6 * leaf_size(&s), &t[k]);
@@ -158,7 +139,7 @@ static void rays_that_end_before_are_told(void **state)
   struct random random = {SEED + 2};
   int asked = 0, told = 0;
   for (int n = 0; n < CASES / 4; n++) {
-    struct subject s = {.packet = {{.t_error = {0}}}};
+    struct viewed s = {.packet = {{.t_error = {0}}}};
     double t[FLOAT_LANES];
     make_leaf(&random, false, &s);
     for (unsigned k = 0; k < FLOAT_LANES; k++) {
@@ -171,8 +152,8 @@ static void rays_that_end_before_are_told(void **state)
       const struct packet *p = &s.packet[k / LANES];
       /* crosses the slab steeply, on a way much longer than the box */
       double across = 0;
-      for (int c = 0; c < 3; c++) across += s.leaf.slab[0].g[c] * p->direction[c][k % LANES] * t[k];
-      if (!(fabs(across) > 8 * s.patch.scale * s.leaf.slab[0].half) || !(fabs(across) > 0x1p-8 * s.tree.frame))
+      for (int c = 0; c < 3; c++) across += s.s.leaf.slab[0].g[c] * p->direction[c][k % LANES] * t[k];
+      if (!(fabs(across) > 8 * s.s.patch.scale * s.s.leaf.slab[0].half) || !(fabs(across) > 0x1p-8 * s.tree.frame))
         continue;
       if (fabs(t[k] * p->longest[k % LANES]) > 8 * s.tree.frame) continue;
       asked++, told += !(all >> k & 1);
