@@ -317,6 +317,7 @@ enum status command_run(const struct command *command, int argc, const char **ar
     (void)command_out_of_memory(command);
   }
   free(request);
+  (void)memory_limit_use(NULL); /* that of a scene, which has not counted the text */
   memory_free(text);
   return status;
 }
