@@ -6,7 +6,7 @@
     hits = scene.nearest(origins, directions)
     depth = hits.t * np.linalg.norm(directions, axis=-1)
 
-A scene is made once and never changes. Its calls let go of Python's lock, so threads may share it. Arrays of rays have
+A scene is made once and never changes. Its calls release Python's lock, so threads may share it. Arrays of rays have
 any shape (..., 3), and two of them are broadcast; answers have that shape without the 3. Promises, units and limits are
 those of pscn.h (`man 3 pscn`). PSCN_LIBRARY is the path of libpscn.so where the system does not find it.
 """
@@ -43,7 +43,7 @@ _INPUT, _LIMIT, _MISS, _ALL = 3, 5, 0, ctypes.c_size_t(-1).value
 
 
 class Error(ValueError):
-    """What libpscn says is wrong; `status` is pscn.h's."""
+    """An error that libpscn reports; `status` is pscn.h's."""
 
     def __init__(self, text: str, status: int):
         super().__init__(text)
@@ -58,7 +58,7 @@ class Options(TypedDict, total=False):
     folders: Sequence[str | os.PathLike]  #: more folders to search for included files
     numbers: Mapping[str, float]  #: declared before the text is read
     image_size: tuple[int, int]  #: image_width and image_height in the text
-    untrusted: bool  #: the text is a stranger's
+    untrusted: bool  #: the text is not trusted
     lenient: bool  #: what pscn does not support is left out, with warnings
     clock: float
     max_work: int  #: tokens that loops and macros may read
@@ -107,7 +107,7 @@ class Surface:
 def _load() -> ctypes.CDLL:
     path = os.environ.get("PSCN_LIBRARY") or ctypes.util.find_library("pscn")
     if path is None:
-        raise ImportError("libpscn is not where the system looks; PSCN_LIBRARY may say where it is")
+        raise ImportError("libpscn was not found; PSCN_LIBRARY may be its path")
     library = ctypes.CDLL(path)
     p, n, stride, text = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_ssize_t, ctypes.c_char_p
     for name, result, arguments in (
