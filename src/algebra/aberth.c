@@ -8,7 +8,8 @@
  * shrink. `rest on` leaves roots that are done alone, though they still push the others. `update gauss_seidel` takes
  * the newest values of the others.
  *
- * Several roots of one polynomial lie side by side in a register. Compiled once per instruction set.
+ * Several roots of one polynomial lie side by side in a register. Compiled once per instruction set; all versions give
+ * the same bits.
  */
 #include <string.h>
 
@@ -28,6 +29,10 @@ struct aberth {
   int active[POLYNOMIAL_MAX_DEGREE];       /* the roots still moving */
   int active_count;
 };
+
+/* Roots that are moved together, whatever a register holds: with `update gauss_seidel` they see each other's old
+ * values. */
+enum { TOGETHER = 4 };
 
 /* Noise steps that a root may take before it is done: the others still move, and the next step may be a good one. */
 enum { PATIENCE = 2 };
@@ -182,22 +187,25 @@ static void sweep(struct aberth *a, const struct solver_options *options, int nu
   const double tolerance = options->tolerance * options->tolerance;
   int moving = 0, still_active = 0;
   const int active_count = a->active_count, *active = a->active;
-  for (int first = 0; first < active_count; first += LANES) {
-    const int used = active_count - first < LANES ? active_count - first : LANES;
-    lanes xr, xi;
-    for (int l = 0; l < LANES; l++) {
-      const int i = active[l < used ? first + l : first];
-      xr[l] = a->zr[i];
-      xi[l] = a->zi[i];
+  for (int first = 0; first < active_count; first += TOGETHER) {
+    const int used = active_count - first < TOGETHER ? active_count - first : TOGETHER;
+    struct aberth_step step[TOGETHER / LANES];
+    for (int k = 0; k < used; k += LANES) {
+      lanes xr, xi;
+      for (int l = 0; l < LANES; l++) {
+        const int i = active[k + l < used ? first + k + l : first];
+        xr[l] = a->zr[i];
+        xi[l] = a->zi[i];
+      }
+      if (options->stop == STOP_ROUNDING) step_lanes(a, xr, xi, true, &step[k / LANES]);
+      else step_lanes(a, xr, xi, false, &step[k / LANES]);
     }
-    struct aberth_step step;
-    if (options->stop == STOP_ROUNDING) step_lanes(a, xr, xi, true, &step);
-    else step_lanes(a, xr, xi, false, &step);
-    for (int l = 0; l < used; l++) {
-      const int i = active[first + l];
-      const double limit = relative && step.square[l] < 1.0 ? tolerance * step.square[l] : tolerance;
-      const bool done = take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], limit,
-                                  step.resting[l] != 0);
+    for (int k = 0; k < used; k++) {
+      const int i = active[first + k], l = k % LANES;
+      const struct aberth_step *of = &step[k / LANES];
+      const double limit = relative && of->square[l] < 1.0 ? tolerance * of->square[l] : tolerance;
+      const bool done = take_step(a, options, turning, i, of->re[l], of->im[l], of->step_square[l], limit,
+                                  of->resting[l] != 0);
       out->root[i].iterations++;
       out->root[i].status = done ? ROOT_CONVERGED : ROOT_LIMIT;
       moving += !done;
