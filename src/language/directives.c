@@ -1,4 +1,4 @@
-/* Directives, and all other tokens that are not the grammar's. */
+/* Directives, messages, macros, and all other tokens that are not the grammar's. */
 #include "language/tokens.h"
 
 #include <stdio.h>

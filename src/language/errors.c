@@ -1,4 +1,4 @@
-/* Errors of one reading, and what it leaves out. */
+/* Errors of one reading, what it leaves out, and the text of syntax errors. */
 #include "language/state.h"
 
 #include <stdarg.h>

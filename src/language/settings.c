@@ -1,4 +1,4 @@
-/* global_settings, background and light sources. */
+/* global_settings, background, light sources and the solver statement. */
 #include "language/settings.h"
 
 #include <float.h>

@@ -1,4 +1,4 @@
-/* The stack of sources. */
+/* The stack of sources, and files that #include names. */
 #include "language/sources.h"
 
 #include <inttypes.h>

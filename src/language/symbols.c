@@ -1,4 +1,4 @@
-/* Declared names. */
+/* Declared names, and their declarations. */
 #include "language/symbols.h"
 
 #include <math.h>

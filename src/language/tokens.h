@@ -1,4 +1,4 @@
-/* The stream of tokens that the grammar reads, after conditions; and recovery from syntax errors. */
+/* The stream of tokens that the grammar reads, after conditions; recovery from syntax errors; and directives. */
 #ifndef PSCN_LANGUAGE_TOKENS_H
 #define PSCN_LANGUAGE_TOKENS_H
 

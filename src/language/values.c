@@ -1,4 +1,4 @@
-/* Values and arithmetic. */
+/* Values: arithmetic, strings, colours. */
 #include "language/values.h"
 
 #include <float.h>
