@@ -254,10 +254,8 @@ Two judges examine the default's answers. They share nothing with it or with eac
 
 | test | examines |
 |---|---|
-| `accuracy-camera` | all pixels of several scenes: nothing lost, nothing invented, errors of T in the last places |
-| `accuracy-random-patches` | random rays at random patches |
 | `accuracy-leaks` | rays from inside closed bodies at shared edges, corners and poles: none may get out |
-| `accuracy-classes`, `accuracy-certificate` | the classes in which such methods are known to fail, and those that an adversary would aim at |
+| `accuracy-classes`, `accuracy-certificate` | the classes in which such methods are known to fail, those that an adversary would aim at, and pictures of models |
 | `corpus`, `corpus-families` | named hard polynomials and families of them: every root within the radius of its value, or reported as unknown |
 
 Every solver's errors on the named polynomials are in [accuracy/corpus.csv](accuracy/corpus.csv). In doubles no solver finds many digits of multiple and clustered roots; a renderer that needs more goes

@@ -1,7 +1,7 @@
-/* Proves that all hits are all roots. For all classes of situations.h and hostile.h, with every solver and with whole
- * patches, each list of hits is compared with what the exact judge finds on each patch (exact.h). A certain list has a
- * hit for each root inside a patch, and one at each point of a border; a certain hit is a root, in any list. Prints for
- * each class and solver the counts. */
+/* Proves that all hits are all roots. For all classes of situations.h, with every solver and with whole patches, each
+ * list of hits is compared with what the exact judge finds on each patch (exact.h). A certain list has a hit for each
+ * root inside a patch, and one at each point of a border; a certain hit is a root, in any list. Prints for each class
+ * and solver the counts. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
-/* Proves that no answer is wrong. The exact judge proves or refutes every answer to all classes of situations.h and
- * hostile.h: each ray in several ways, with every solver and several splits, all judged by one proof. None may be
- * refuted, whether it is called certain or grazing. Prints for each class and solver the counts by verdict. */
+/* Proves that no answer is wrong. The exact judge proves or refutes every answer to all classes of situations.h: each
+ * ray in several ways, with every solver and several splits, all judged by one proof. None may be refuted, whether it
+ * is called certain or grazing. Prints for each class and solver the counts by verdict. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -385,6 +385,19 @@ static void magnified_million(struct random *random, size_t index, struct situat
   silhouette(random, 1e-6, s);
 }
 
+/* Rays of a picture: from one point, at a whole model. */
+static void pictures(struct random *random, size_t index, struct situation *s)
+{
+  static void (*const models[])(struct closed_model *) = {model_teapot, model_torus, model_ball, model_dome};
+  struct closed_model model;
+  double origin[3], target[3];
+  models[index % 4](&model);
+  s->count = model.count;
+  memcpy(s->P, model.P, sizeof s->P);
+  random_vector(random, 5, origin);
+  for (int n = 0; n < RAYS; n++) random_vector(random, 1.2, target), ray_between(origin, target, &s->rays[n]);
+}
+
 /* Rays that start on the surface, or a little off it. */
 static void on_surface(struct random *random, size_t index, struct situation *s)
 {
@@ -420,6 +433,7 @@ static const struct situation_class classes[] = {
   {"silhouette magnified 200 times", 513, 1, magnified_200},
   {"silhouette magnified a million times", 521, 1, magnified_million},
   {"start on the surface", 514, 1, on_surface},
+  {"pictures of models", 522, 1, pictures},
 };
 
 size_t situation_class_count(void) { return sizeof classes / sizeof classes[0]; }
