@@ -215,8 +215,7 @@ enum status chart_scene(const struct chart_request *request, struct scene *scene
   *out_text = (struct text_buffer){0};
   if (!judge_available())
     return listener_fail(listener, STATUS_LIMIT,
-                         "this build has no reference: its compiler has no quadruple "
-                         "precision, so nothing can be judged");
+                         "this build cannot judge answers: its compiler has no quadruple precision");
   struct chart chart = {.request = request,
                         .listener = listener,
                         .scene = scene,

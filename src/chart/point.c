@@ -105,24 +105,7 @@ static bool beats(const struct chart_point *a, const struct chart_point *b)
 {
   const double ta = a->time[RAYS_CAMERA].median, tb = b->time[RAYS_CAMERA].median;
   const double ea = a->camera.p99_of_all, eb = b->camera.p99_of_all;
-  return ta <= tb && ea <= eb && (ta < tb || ea < eb);
-}
-
-/* Times with overlapping quartiles count as equal. */
-static bool ties(const struct chart_point *a, const struct chart_point *b)
-{
-  const struct timing *p = &a->time[RAYS_CAMERA], *q = &b->time[RAYS_CAMERA];
-  return a->camera.p99_of_all <= b->camera.p99_of_all && p->lower <= q->upper && q->lower <= p->upper;
-}
-
-/* Whether another point is no less exact, and faster by more than the noise. */
-static bool clearly_beaten(const struct chart_point *points, size_t count, const struct chart_point *point)
-{
-  for (size_t k = 0; k < count; k++)
-    if (points[k].camera.p99_of_all <= point->camera.p99_of_all &&
-        points[k].time[RAYS_CAMERA].upper < point->time[RAYS_CAMERA].lower)
-      return true;
-  return false;
+  return ta <= tb && ea <= eb && (ta < tb || ea < eb || a < b);
 }
 
 void point_front(struct chart_point *points, size_t count)
@@ -131,11 +114,5 @@ void point_front(struct chart_point *points, size_t count)
     points[k].front = isfinite(points[k].time[RAYS_CAMERA].median) && isfinite(points[k].camera.p99_of_all);
     for (size_t other = 0; points[k].front && other < count; other++)
       points[k].front = !beats(&points[other], &points[k]);
-  }
-  for (size_t k = 0; k < count; k++) {
-    for (size_t first = 0; points[k].front && first < k; first++) {
-      if (!ties(&points[first], &points[k]) || clearly_beaten(points, count, &points[first])) continue;
-      points[k].front = false, points[first].front = true;
-    }
   }
 }

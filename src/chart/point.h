@@ -49,10 +49,8 @@ void point_choice(const struct method solvers[], size_t count, struct sweep_poin
  * rounds. */
 void point_level(struct chart_point *points, size_t count, const double yard[RAY_KINDS]);
 
-/* Marks the points that no other one beats: one that is no slower and no less exact, and better in one of the two.
- * Exactness is camera.p99_of_all. Points without both numbers are never on the front. Where only noise decides, that
- * is, where an earlier point is no less exact and the quartiles of the times overlap, the earliest such point takes the
- * place, unless another one beats it by more than noise. */
+/* Marks the points that no other one beats: one that is no slower and no less exact, and better in one of the two or,
+ * if equal in both, earlier. Exactness is camera.p99_of_all. Points without both numbers are never on the front. */
 void point_front(struct chart_point *points, size_t count);
 
 #endif

@@ -17,15 +17,11 @@ struct request {
   enum image_format format;
 };
 
-enum { OPTION_BITS = 1 };
-
 static const char SECONDS[] = "pscn:render_seconds";
 
 static const struct command_option OPTIONS[] = {
-  COMMAND_HELP_OPTION,
-  COMMAND_TEXT("output", 'o', output, "the picture, .png or .exr", "FILE"),
-  COMMAND_OPTION("bits", 0, OPTION_BITS, "bits of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
-  COMMAND_TRUE("quiet", 'q', quiet, "print nothing unless something is wrong"),
+  COMMAND_HELP_OPTION,       COMMAND_TEXT("output", 'o', output, "the picture, .png or .exr", "FILE"),
+  COMMAND_BITS_OPTION(bits), COMMAND_TRUE("quiet", 'q', quiet, "print nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
 
@@ -47,14 +43,6 @@ struct merge {
   double seconds;           /* rendering time of the pieces */
   bool strange;             /* a file is wrong; the error has been printed */
 };
-
-static enum status take_option(const struct command *command, void *context, int val, const char *argument)
-{
-  struct request *request = context;
-  (void)val;
-  if (value_integer(argument, 8, 32, &request->bits)) return STATUS_OK;
-  return command_usage(command, "'%s' bits are 8, 16 or 32", argument);
-}
 
 /* Excludes the file, and prints the reason. */
 static void refuse(struct merge *merge, struct file *file, const char *before, const char *why)
@@ -169,7 +157,7 @@ static enum status read_files(struct merge *merge)
     if (!file->good) continue;
     const enum status status = piece_read(file->path, true, &whole, message);
     if (status != STATUS_OK) refuse(merge, file, "", message);
-    else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it was rewritten meanwhile");
+    else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it changed while it was being read");
     else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "", "it lacks a channel");
     else count_tiles(merge, &whole);
     merge->seconds += atof(image_text(&whole.image, SECONDS));
@@ -299,5 +287,5 @@ const struct command command_merge = {
     "the kind of processor. If a piece is missing, cannot be read, belongs to another picture than most or has\n"
     "tiles of another piece, no picture is written and the exit code is 1. Standard output then has the numbers of\n"
     "the pieces that are still to be rendered, such as 2,5-7, in the form of sbatch --array.\n",
-  COMMAND_RUNS(1, take_option),
+  COMMAND_RUNS(1, NULL),
 };

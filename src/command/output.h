@@ -31,6 +31,10 @@ enum status output_picture(const struct command *command, const struct image *im
 /* The text for an errno value about a file to be written. */
 const char *output_reason(const char *path, int reason);
 
+/* The row of the option --bits, stored in a field of the file's own struct request; 0: not given. */
+#define COMMAND_BITS_OPTION(field) \
+  COMMAND_INTEGER("bits", field, 8, 32, "number of bits", "bits of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N")
+
 /* The format of a picture, by its suffix. Returns STATUS_USAGE, after printing the error, if the suffix is not
  * known. */
 enum status output_format(const struct command *command, const char *path, enum image_format *out) STATUS_MUST_CHECK;

@@ -13,7 +13,7 @@
 #include "command/values.h"
 #include "language/words.h"
 
-enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS, OPTION_FRAMES, OPTION_TILE };
+enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_FRAMES, OPTION_TILE };
 
 enum {
   MAX_SAMPLES = 256, /* per side: 65536 rays per pixel */
@@ -43,7 +43,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_INTEGER("threads", picture.options.threads, 1, MAX_THREADS, "number of threads",
                   "number of threads; default one for each processor", "N"),
   COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "values kept of each pixel, separated by commas; default rgb", "LIST"),
-  COMMAND_OPTION("bits", 0, OPTION_BITS, "bits of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
+  COMMAND_BITS_OPTION(picture.bits),
   COMMAND_OPTION("frames", 0, OPTION_FRAMES, "frames A to B of an animation; clock goes from 0 to 1 over them", "A-B"),
   COMMAND_OPTION("tile", 0, OPTION_TILE, "only piece K of N, from 1, as an EXR for pscn merge", "K/N"),
   COMMAND_TRUE("resume", 0, picture.resume, "continue where an earlier run ended"),
@@ -90,10 +90,6 @@ static enum status take_option(const struct command *command, void *context, int
       return command_usage(command, "'%s' is not a crop X,Y,W,H in pixels", argument);
     break;
   case OPTION_CHANNELS: return take_channels(command, request, argument);
-  case OPTION_BITS:
-    if (!value_integer(argument, 8, 32, &request->picture.bits))
-      return command_usage(command, "'%s' bits are 8, 16 or 32", argument);
-    break;
   case OPTION_FRAMES: return take_frames(command, &request->scene, argument);
   case OPTION_TILE:
     if (!value_range(argument, '/', PIECE_MOST, &request->picture.piece, &request->picture.pieces))
@@ -249,7 +245,7 @@ static enum status make_frames(const struct command *command, const struct reque
 {
   const int first = request->scene.first_frame, last = request->scene.last_frame;
   if (request->picture.stats != NULL || request->picture.pieces > 0)
-    return command_usage(command, "--stats and --tile are for one picture, --frames for several");
+    return command_usage(command, "--frames cannot be used with --stats or --tile, which are for one picture");
   char *name = request->picture.output != NULL ? strdup(request->picture.output)
                                                : output_name(request->scene.path, ".png");
   enum status status = name == NULL ? command_out_of_memory(command) : STATUS_OK;

@@ -218,8 +218,8 @@ static void tell_unknown(struct session *session, const struct answer *answer)
   }
   if (answer->roots.missing > 0) {
     command_print(stderr, session->name);
-    fprintf(stderr, ":%zu: error: %d of the roots missing: not found, or too large\n", answer->line,
-            answer->roots.missing);
+    fprintf(stderr, ":%zu: error: %d root%s missing: not found, or too large\n", answer->line, answer->roots.missing,
+            answer->roots.missing == 1 ? " is" : "s are");
   }
 }
 
@@ -361,7 +361,7 @@ static enum status roots(const struct command *command, const struct request *re
     .name = stream_name(request->path), .format = request->format, .judged = summary || request->stats != NULL};
   const struct stream_reader reader = {.take = take, .answer = answered, .context = &session, .path = request->path};
   if (request->iterates && request->format != FORMAT_PLAIN)
-    return command_usage(command, "--iterates has its own format");
+    return command_usage(command, "--iterates cannot be used with --format");
   const char *input = request->path == NULL || output_is_standard(request->path) ? "/dev/stdin" : request->path;
   enum status status = output_spare_input(command, request->stats, input);
   if (status == STATUS_OK) status = output_probe(command, request->stats);

@@ -177,7 +177,8 @@ char *scene_request_text(const struct scene_request *request)
 void scene_file_warn_of_cuts(const struct command *command, const struct intersector *intersector)
 {
   if (intersector_cut_less(intersector))
-    command_warning(command, "memory is short: patches have fewer leaves than 'split' says; --max-memory allows more");
+    command_warning(
+      command, "memory is short, so patches are cut into fewer leaves than 'split' requests; --max-memory allows more");
 }
 
 bool scene_file_warn(const struct command *command, const struct scene *scene)
@@ -188,8 +189,9 @@ bool scene_file_warn(const struct command *command, const struct scene *scene)
     if (missing[k]) command_warning(command, "the scene has %s", what[k]);
   if (scene->gamma_assumed)
     command_warning(
-      command, "the scene has no #version, so its colours are sRGB's, as in POV-Ray; begin with '#version 3.7;' for "
-               "linear colours");
+      command,
+      "the scene has no #version, so its colours are read as sRGB, as in POV-Ray; begin with '#version 3.7;' for "
+      "linear colours");
   return missing[0] || missing[1] || missing[2];
 }
 

@@ -364,9 +364,9 @@ static struct stream_fault take(void *context, const struct stream_line *line)
 static enum status check_request(const struct command *command, struct request *request)
 {
   if (request->explain && request->all)
-    return command_usage(command, "--explain and --all exclude each other: an explanation is of the nearest hit");
+    return command_usage(command, "--explain cannot be used with --all: it explains the nearest hit");
   if (request->explain && request->binary)
-    return command_usage(command, "--explain and --binary exclude each other: an explanation is text");
+    return command_usage(command, "--explain cannot be used with --binary: it writes text");
   const bool standard = request->rays == NULL || output_is_standard(request->rays);
   if (standard && output_is_standard(request->scene.path))
     return command_usage(command, "scene and rays cannot both come from standard input");

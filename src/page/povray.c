@@ -135,7 +135,7 @@ static enum status ask_version(struct povray *povray)
   enum status status = begin_run(povray);
   if (status == STATUS_OK) status = run_program(povray, arguments, "--version", &result);
   if (status == STATUS_OK && povray->version[0] == '\0')
-    return listener_fail(povray->listener, STATUS_FILE, "'%s' does not call itself POV-Ray", povray->program);
+    return listener_fail(povray->listener, STATUS_FILE, "'%s' is not POV-Ray", povray->program);
   return status;
 }
 

@@ -35,34 +35,6 @@ TEST(test_front)
   for (size_t k = 0; k < count; k++) assert_int_equal(points[k].front, expected[k]);
 }
 
-/* Of points that differ only by noise the first is on the front. A greater difference counts. */
-TEST(test_front_noise)
-{
-  struct chart_point points[] = {
-    point(100, 1e-15),                  /* as fast as the next within the noise, and as exact */
-    point(98, 1e-15), point(90, 1e-15), /* faster than noise explains */
-    point(89, 1e-14),                   /* hardly faster than the one before, less exact */
-  };
-  points[0].time[RAYS_CAMERA].lower = 97;
-  points[1].time[RAYS_CAMERA].upper = 99;
-  point_front(points, 2);
-  assert_true(points[0].front && !points[1].front);
-  points[3].time[RAYS_CAMERA].upper = 91;
-  point_front(points, 4);
-  assert_true(!points[0].front && !points[1].front && points[2].front && !points[3].front);
-
-  struct chart_point beaten[] = {
-    point(100, 1e-15), /* beaten by the next, so it cannot stand for the last one, which shares its quartiles */
-    point(80, 1e-15),
-    point(70, 1e-5),
-  };
-  beaten[0].time[RAYS_CAMERA].lower = beaten[2].time[RAYS_CAMERA].upper = 90;
-  beaten[1].time[RAYS_CAMERA].lower = beaten[1].time[RAYS_CAMERA].upper = 80;
-  beaten[2].time[RAYS_CAMERA].lower = 60;
-  point_front(beaten, 3);
-  assert_true(!beaten[0].front && beaten[1].front && !beaten[2].front); /* the last is no faster than the second */
-}
-
 /* Times are in units of the yardstick: those measured while the machine was half as fast are halved. */
 TEST(test_level)
 {
