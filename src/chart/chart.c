@@ -160,15 +160,10 @@ static enum status sweep_solvers(struct chart *chart, const struct sweep_point *
 
 /* ---- the work ---- */
 
-static size_t sweep_count(const struct chart_request *request)
-{
-  return request->solver_count > 0 ? 1 + request->solver_count : point_sweep(request->quick, NULL);
-}
-
 static enum status make_room(struct chart *chart)
 {
   chart->arena = arena_create();
-  chart->point_room = sweep_count(chart->request) + CHART_PEER_POINTS;
+  chart->point_room = SWEEP_MOST + chart->request->solver_count + CHART_PEER_POINTS;
   chart->points = chart->arena == NULL ? NULL : arena_alloc(chart->arena, chart->point_room, sizeof *chart->points);
   return chart->points == NULL ? STATUS_LIMIT : STATUS_OK;
 }
@@ -186,15 +181,15 @@ static void level_times(struct chart *chart)
 static enum status measure(struct chart *chart)
 {
   const struct chart_request *request = chart->request;
-  const size_t count = sweep_count(request);
-  struct sweep_point *sweep = arena_alloc(chart->arena, count, sizeof *sweep);
+  struct sweep_point *sweep = arena_alloc(chart->arena, chart->point_room, sizeof *sweep);
+  size_t count = 1 + request->solver_count;
   if (sweep == NULL) return STATUS_LIMIT;
+  if (request->solver_count > 0) point_choice(request->solvers, request->solver_count, sweep);
+  else count = point_sweep(request->quick, sweep);
   for (int kind = 0; kind < RAY_KINDS; kind++) {
     chart->yard[kind] = arena_alloc(chart->arena, count / CHART_BATCH + 1, sizeof *chart->yard[kind]);
     if (chart->yard[kind] == NULL) return STATUS_LIMIT;
   }
-  if (request->solver_count > 0) point_choice(request->solvers, request->solver_count, sweep);
-  else (void)point_sweep(request->quick, sweep);
   scene_override_solver(chart->scene, &sweep[0].options);
   enum status status = prepare_rays(chart, &sweep[0].options);
   if (status == STATUS_OK) status = find_truths(chart);

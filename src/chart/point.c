@@ -1,6 +1,7 @@
 /* Points of a chart. */
 #include "chart/point.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -13,18 +14,17 @@ const char *family_name(enum family family)
 
 static double tolerance_at(int power) { return pow(10, -power); }
 
-/* Points that are written one after another, or only counted. */
+/* Points that are written one after another. */
 struct sweep {
-  struct sweep_point *out; /* or NULL */
+  struct sweep_point *out;
   size_t count;
-  struct sweep_point unused;
 };
 
 /* Adds the next point: the solver with its defaults, which the caller changes. */
 static struct method *add(struct sweep *sweep, const struct solver *solver, enum family family)
 {
-  struct sweep_point *point = sweep->out == NULL ? &sweep->unused : &sweep->out[sweep->count];
-  sweep->count++;
+  struct sweep_point *point = &sweep->out[sweep->count++];
+  assert(sweep->count <= SWEEP_MOST);
   point->family = family;
   method_default(solver, &point->options);
   return &point->options;
@@ -78,7 +78,7 @@ void point_choice(const struct method solvers[], size_t count, struct sweep_poin
   }
 }
 
-size_t point_sweep(bool quick, struct sweep_point *out)
+size_t point_sweep(bool quick, struct sweep_point out[SWEEP_MOST])
 {
   struct sweep sweep = {.out = out};
   (void)add(&sweep, solver_at(0), FAMILY_DEFAULT);

@@ -34,12 +34,13 @@ struct chart_point {
 };
 
 /* The solvers to chart: all except durand_kerner, with each basis, start, polish and tolerance that makes a difference,
- * and the paper's forms. The first one is the default. Returns their number; out may be NULL. */
+ * and the paper's forms. The first one is the default. Returns their number. */
+enum { SWEEP_MOST = 512 };
 struct sweep_point {
   enum family family;
   struct method options;
 };
-size_t point_sweep(bool quick, struct sweep_point *out);
+size_t point_sweep(bool quick, struct sweep_point out[SWEEP_MOST]);
 
 /* The default, and then these solvers. */
 void point_choice(const struct method solvers[], size_t count, struct sweep_point out[]);

@@ -2,7 +2,6 @@
 #include "image/compare.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "command/command.h"
@@ -38,17 +37,9 @@ static const struct command_option OPTIONS[] = {
 /* What is compared: two pictures and the channels they share. */
 struct subject {
   struct image image[2];
-  size_t *channel[2]; /* owned: the indices in each picture */
+  size_t channel[2][IMAGE_MAX_CHANNELS]; /* the indices in each picture */
   size_t channel_count;
 };
-
-static void subject_free(struct subject *subject)
-{
-  for (int k = 0; k < 2; k++) {
-    image_destroy(&subject->image[k]);
-    free(subject->channel[k]);
-  }
-}
 
 /* Adds the channel of that name. */
 static enum status add_channel(const struct command *command, const struct request *request, struct subject *subject,
@@ -86,10 +77,6 @@ static enum status add_listed(const struct command *command, const struct reques
 /* Pairs the channels: those listed, or else all, which both pictures must then have. */
 static enum status pair_channels(const struct command *command, const struct request *request, struct subject *subject)
 {
-  for (int k = 0; k < 2; k++) {
-    subject->channel[k] = malloc(IMAGE_MAX_CHANNELS * sizeof *subject->channel[k]);
-    if (subject->channel[k] == NULL) return command_out_of_memory(command);
-  }
   if (request->channels != NULL) return add_listed(command, request, subject);
   const struct image *first = &subject->image[0], *second = &subject->image[1];
   enum status status = STATUS_OK;
@@ -218,7 +205,7 @@ static enum status compare(const struct command *command, const struct request *
 
 done:
   image_destroy(&difference);
-  subject_free(&subject);
+  for (int k = 0; k < 2; k++) image_destroy(&subject.image[k]);
   return status;
 }
 

@@ -1,4 +1,6 @@
 /* pscn trace SCENE: rays from a file or stdin, hits on stdout. */
+#define _DEFAULT_SOURCE /* htole64, le64toh */
+#include <endian.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -77,9 +79,9 @@ static char *append_end(bool tells, bool certain, char *to)
 
 static char *append_double(double value, char *to)
 {
-  const uint64_t bits = real_bits(value);
-  for (size_t b = 0; b < 8; b++) *to++ = (char)(bits >> (8 * b) & 0xff);
-  return to;
+  const uint64_t bits = htole64(real_bits(value));
+  memcpy(to, &bits, sizeof bits);
+  return to + sizeof bits;
 }
 
 static void write_hit(const struct request *request, const struct ray *ray, const struct hit *hit)
@@ -343,8 +345,9 @@ static struct stream_fault parse_record(const struct stream_line *record, struct
   if (record->length < sizeof value)
     return (struct stream_fault){.text = "the stream ends inside a record of 48 bytes"};
   for (int k = 0; k < RAY_VALUES; k++) {
-    uint64_t bits = 0;
-    for (int b = 7; b >= 0; b--) bits = bits << 8 | (unsigned char)record->text[8 * k + b];
+    uint64_t bits;
+    memcpy(&bits, record->text + sizeof bits * (size_t)k, sizeof bits);
+    bits = le64toh(bits);
     memcpy(&value[k], &bits, sizeof bits);
     if (!number_in_range(&value[k])) return (struct stream_fault){.text = "a ray's numbers are at most 1e100"};
   }

@@ -22,6 +22,12 @@ namespace
 
 using Bytes = std::vector<unsigned char>;
 
+/* What ends the work early. `text` is empty if the message is written already. */
+struct failure {
+  status result;
+  std::string text;
+};
+
 void say(char *message, const std::string &text)
 {
   const std::size_t end = text.find_first_of("\r\n");
@@ -60,10 +66,10 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
   return spec;
 }
 
-/* Writes all rows, some at a time, so that their converted values take little memory, and the caller can follow and
- * stop it: STATUS_INTERRUPTED. */
-status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
-                  const image_encoding &encoding)
+/* Writes all rows, some at a time, so that their converted values take little memory, and the caller can follow and stop
+ * it. */
+void write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
+                const image_encoding &encoding)
 {
   /* Whole blocks of every EXR compression, or one row of tiles. */
   const std::size_t most = encoding.tile == 0 ? 64 : static_cast<std::size_t>(encoding.tile);
@@ -74,30 +80,28 @@ status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
     if (!(encoding.tile == 0
             ? output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, pixels)
             : output.write_tiles(spec.x, spec.x + spec.width, y, end, 0, 1, OIIO::TypeDesc::FLOAT, pixels)))
-      return STATUS_FILE;
+      throw failure{STATUS_FILE, "OpenImageIO: " + output.geterror()};
     const double part = static_cast<double>(row + rows) / static_cast<double>(picture.height);
-    if (encoding.progress != nullptr && !encoding.progress(encoding.context, part)) return STATUS_INTERRUPTED;
+    if (encoding.progress != nullptr && !encoding.progress(encoding.context, part))
+      throw failure{STATUS_INTERRUPTED, "interrupted"};
   }
-  return STATUS_OK;
 }
 
-/* Encodes into `file`. Returns an empty string, or the error, whose status is in `result`. */
-std::string encode(const image &picture, const image_encoding &encoding, Bytes &file, status &result)
+Bytes encode(const image &picture, const image_encoding &encoding)
 {
-  result = STATUS_FILE;
-  OIIO::ImageSpec spec = make_spec(picture, encoding);
+  Bytes file;
+  const OIIO::ImageSpec spec = make_spec(picture, encoding);
   OIIO::Filesystem::IOVecOutput proxy(file); /* outlives the output, whose destructor still writes into it */
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("exr");
-  if (!output) return "OpenImageIO: " + OIIO::geterror();
-  if (!output->supports("ioproxy")) return "this OpenImageIO cannot write the format to memory";
-  if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
+  if (!output) throw failure{STATUS_FILE, "OpenImageIO: " + OIIO::geterror()};
+  if (!output->supports("ioproxy")) throw failure{STATUS_FILE, "this OpenImageIO cannot write the format to memory"};
   /* The name only selects the format; the bytes go to the proxy. */
-  if (output->open("memory.exr", spec)) result = write_rows(*output, spec, picture, encoding);
-  if (result == STATUS_INTERRUPTED) return "interrupted";
-  if (result == STATUS_OK && !output->close()) result = STATUS_FILE;
-  if (result != STATUS_OK) return "OpenImageIO: " + output->geterror();
-  if (file.empty()) result = STATUS_FILE;
-  return file.empty() ? "OpenImageIO wrote nothing" : "";
+  if (!output->set_ioproxy(&proxy) || !output->open("memory.exr", spec))
+    throw failure{STATUS_FILE, "OpenImageIO: " + output->geterror()};
+  write_rows(*output, spec, picture, encoding);
+  if (!output->close()) throw failure{STATUS_FILE, "OpenImageIO: " + output->geterror()};
+  if (file.empty()) throw failure{STATUS_FILE, "OpenImageIO wrote nothing"};
+  return file;
 }
 
 /* Reads the picture's place in a larger one. A picture that is not inside of one counts as a whole. */
@@ -119,18 +123,22 @@ void read_metadata(const OIIO::ImageSpec &spec, image &out)
       throw std::bad_alloc();
 }
 
-/* Checks that what is read will be all that the file has. Returns an empty string, or the objection. */
-std::string besides(OIIO::ImageInput &input, const OIIO::ImageSpec &spec)
+/* Checks that what is read will be all that the file has. */
+void check_whole(OIIO::ImageInput &input, const OIIO::ImageSpec &spec)
 {
+  if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
+      spec.nchannels > IMAGE_MAX_CHANNELS)
+    throw failure{STATUS_FILE, "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels"};
   for (const std::string &name : spec.channelnames)
     if (name.size() >= IMAGE_NAME_SIZE)
-      return "a channel has a name of more than " + std::to_string(IMAGE_NAME_SIZE - 1) + " bytes";
+      throw failure{STATUS_FILE, "a channel has a name of more than " + std::to_string(IMAGE_NAME_SIZE - 1) + " bytes"};
   /* In YCbCr, pixels may share a value of colour, and a row then has fewer bytes, as stored, than OpenImageIO takes for
    * pixels: it would read beyond them in memory. */
-  if (spec.get_string_attribute("tiff:ColorSpace") == "YCbCr") return "its colours are YCbCr, not red, green and blue";
-  if (input.seek_subimage(1, 0)) return "it has several pictures";
+  if (spec.get_string_attribute("tiff:ColorSpace") == "YCbCr")
+    throw failure{STATUS_FILE, "its colours are YCbCr, not red, green and blue"};
+  if (input.seek_subimage(1, 0)) throw failure{STATUS_FILE, "it has several pictures"};
   (void)input.geterror(); /* discards the error that there is no other picture */
-  return input.seek_subimage(0, 0) ? "" : input.geterror();
+  if (!input.seek_subimage(0, 0)) throw failure{STATUS_FILE, input.geterror()};
 }
 
 /* Reads all pixels. A TIFF is read row by row or tile by tile: if OpenImageIO takes many rows or tiles at once, it
@@ -192,47 +200,45 @@ bool read_areas(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, const rect
   return true;
 }
 
-std::string read(const char *path, const char *format, const image_wanted *wanted, image &out, status &result,
-                 char *message)
+void read(const char *path, const char *format, const image_wanted *wanted, image &out, char *message)
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-  if (!input) return "OpenImageIO: " + OIIO::geterror();
+  if (!input) throw failure{STATUS_FILE, "OpenImageIO: " + OIIO::geterror()};
   OIIO::ImageSpec spec, as_stored; /* neither multiplied by opacity nor converted to red, green and blue */
   as_stored.attribute("oiio:UnassociatedAlpha", 1);
   as_stored.attribute("oiio:RawColor", 1);
-  if (!input->open(path, spec, as_stored)) return input->geterror();
-  if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
-      spec.nchannels > IMAGE_MAX_CHANNELS)
-    return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
-  const std::string more = besides(*input, spec);
-  if (!more.empty()) return more;
-  const char *const too_large = "there is too little memory for its pixels, or they are too many";
-  result = image_create_header(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
-                               static_cast<std::size_t>(spec.nchannels), &out);
-  if (result != STATUS_OK) return too_large;
+  if (!input->open(path, spec, as_stored)) throw failure{STATUS_FILE, input->geterror()};
+  check_whole(*input, spec);
+  const failure too_large{STATUS_LIMIT, "there is too little memory for its pixels, or they are too many"};
+  if (image_create_header(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
+                          static_cast<std::size_t>(spec.nchannels), &out) != STATUS_OK)
+    throw too_large;
   for (std::size_t c = 0; c < out.channel_count; c++)
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
   read_window(spec, out);
   read_metadata(spec, out);
   const rectangle *area = nullptr;
   std::size_t areas = 0;
-  if (wanted != nullptr) result = wanted->areas(wanted->context, &out, &area, &areas, message);
-  if (result != STATUS_OK || (wanted != nullptr && areas == 0)) return "";
-  result = image_add_pixels(&out);
-  if (result != STATUS_OK) return too_large;
+  const status asked = wanted == nullptr ? STATUS_OK : wanted->areas(wanted->context, &out, &area, &areas, message);
+  if (asked != STATUS_OK) throw failure{asked, ""};
+  if (wanted != nullptr && areas == 0) return;
+  if (image_add_pixels(&out) != STATUS_OK) throw too_large;
   /* Rows of a TIFF or JPEG that is cut off or damaged are made up. geterror() tells that, the returned value does
    * not. */
   const bool done = wanted == nullptr ? read_pixels(*input, spec, out) : read_areas(*input, spec, area, areas, out);
   const std::string problem = input->geterror();
-  if (!done || !problem.empty()) result = STATUS_FILE;
-  return problem;
+  if (!done || !problem.empty()) throw failure{STATUS_FILE, problem};
 }
 
-/* Runs work() -> status, which may throw, and converts exceptions to a status and a message. */
+/* Runs work(), and converts exceptions to a status and a message. */
 template <typename Work> status guarded(char *message, Work work)
 {
   try {
-    return work();
+    work();
+    return STATUS_OK;
+  } catch (const failure &problem) {
+    if (!problem.text.empty()) say(message, problem.text);
+    return problem.result;
   } catch (const std::bad_alloc &) {
     say(message, "out of memory");
     return STATUS_LIMIT;
@@ -253,29 +259,17 @@ status module_encode(const image *picture, const image_encoding *encoding, unsig
   return guarded(
     message,
     [&] {
-      Bytes file;
-      status result;
-      const std::string problem = encode(*picture, *encoding, file, result);
-      if (result != STATUS_OK) {
-        say(message, problem);
-        return result;
-      }
+      const Bytes file = encode(*picture, *encoding);
       *out_bytes = static_cast<unsigned char *>(std::malloc(file.size()));
       if (*out_bytes == nullptr) throw std::bad_alloc();
       std::memcpy(*out_bytes, file.data(), file.size());
       *out_size = file.size();
-      return STATUS_OK;
     });
 }
 
 status module_read(const char *path, const char *format, const image_wanted *wanted, image *out, char *message)
 {
-  const status result = guarded(message, [&] {
-    status reading = STATUS_FILE;
-    const std::string problem = read(path, format, wanted, *out, reading, message);
-    if (!problem.empty()) say(message, problem);
-    return reading;
-  });
+  const status result = guarded(message, [&] { read(path, format, wanted, *out, message); });
   if (result != STATUS_OK) image_destroy(out);
   return result;
 }
@@ -287,10 +281,10 @@ status module_begin(char *message)
   return guarded(
     message,
     [&] {
-      if (OIIO::ImageOutput::create("exr")) return STATUS_OK;
+      if (OIIO::ImageOutput::create("exr")) return;
       const std::string problem = OIIO::geterror();
-      say(message, problem.empty() ? "there are too few threads" : "OpenImageIO: " + problem);
-      return problem.empty() ? STATUS_LIMIT : STATUS_FILE;
+      if (problem.empty()) throw failure{STATUS_LIMIT, "there are too few threads"};
+      throw failure{STATUS_FILE, "OpenImageIO: " + problem};
     });
 }
 
