@@ -30,6 +30,7 @@ struct file {
   const char *path;
   struct piece piece; /* without pixels */
   bool good;          /* a valid piece of the picture, as far as is known */
+  size_t members;     /* of the first file of a picture: how many files belong to that */
 };
 
 /* The state of the merge. */
@@ -67,42 +68,28 @@ static enum status read_headers(struct merge *merge)
   return STATUS_OK;
 }
 
-/* piece_compare, also of the way in which the picture is cut. */
-static int compare(const struct file *a, const struct file *b, char *message, size_t size)
+/* Whether both files are of one picture, cut in the same way. If not, `out` says how they differ. */
+static bool belong(const struct file *a, const struct file *b, char *out, size_t size)
 {
-  const int order = piece_compare(&a->piece.image, &b->piece.image, message, size);
-  if (order != 0 || a->piece.count == b->piece.count) return order;
-  snprintf(message, size, "its number of pieces: %zu, not %zu", a->piece.count, b->piece.count);
-  return a->piece.count < b->piece.count ? -1 : 1;
-}
-
-/* The files of a picture in their order. */
-static int by_picture(const void *a, const void *b)
-{
-  const struct file *p = *(const struct file *const *)a, *q = *(const struct file *const *)b;
-  char message[IMAGE_MESSAGE_SIZE];
-  const int order = compare(p, q, message, sizeof message);
-  return order != 0 ? order : (p > q) - (p < q);
+  if (!piece_belongs(&a->piece.image, &b->piece.image, out, size)) return false;
+  snprintf(out, size, "its number of pieces: %zu, not %zu", a->piece.count, b->piece.count);
+  return a->piece.count == b->piece.count;
 }
 
 /* Chooses the picture that most files belong to; in a tie, that of the first file. */
-static enum status choose_picture(struct merge *merge)
+static void choose_picture(struct merge *merge)
 {
   char message[IMAGE_MESSAGE_SIZE];
-  const struct file **sorted = malloc(merge->count * sizeof *sorted);
-  if (sorted == NULL) return command_out_of_memory(merge->command);
-  size_t good = 0, most = 0;
-  for (size_t k = 0; k < merge->count; k++)
-    if (merge->file[k].good) sorted[good++] = &merge->file[k];
-  qsort(sorted, good, sizeof *sorted, by_picture);
-  for (size_t k = 0, next; k < good; k = next) {
-    for (next = k + 1; next < good && compare(sorted[k], sorted[next], message, sizeof message) == 0;) next++;
-    if (next - k < most || (next - k == most && sorted[k] > merge->first)) continue;
-    most = next - k;
-    merge->first = sorted[k];
+  for (size_t k = 0; k < merge->count; k++) {
+    size_t first = 0; /* file of its picture */
+    if (!merge->file[k].good) continue;
+    while (first < k &&
+           (merge->file[first].members == 0 || !belong(&merge->file[k], &merge->file[first], message, sizeof message)))
+      first++;
+    merge->file[first].members++;
   }
-  free(sorted);
-  return STATUS_OK;
+  for (size_t k = 0; k < merge->count; k++)
+    if (merge->file[k].members > (merge->first == NULL ? 0 : merge->first->members)) merge->first = &merge->file[k];
 }
 
 /* Creates the picture, still black. */
@@ -141,7 +128,7 @@ static bool is_same(const struct piece *header, const struct piece *whole)
 {
   char message[IMAGE_MESSAGE_SIZE];
   return strcmp(image_text(&header->image, "pscn:sum"), image_text(&whole->image, "pscn:sum")) == 0 &&
-         piece_compare(&whole->image, &header->image, message, sizeof message) == 0;
+         piece_belongs(&whole->image, &header->image, message, sizeof message);
 }
 
 /* A file's tiles count only after its pixels have been read, so that a damaged file does not exclude another one. */
@@ -151,7 +138,7 @@ static enum status read_files(struct merge *merge)
   for (size_t k = 0; k < merge->count; k++) {
     struct file *file = &merge->file[k];
     struct piece whole;
-    if (file->good && compare(file, merge->first, message, sizeof message) != 0)
+    if (file->good && !belong(file, merge->first, message, sizeof message))
       refuse(merge, file, "is a piece of another picture; ", message);
     if (file->good && has_twice(merge, &file->piece)) refuse(merge, file, "", "its tiles are in an earlier file, too");
     if (!file->good) continue;
@@ -221,7 +208,7 @@ static enum status write_picture(struct merge *merge)
 static enum status put_together(struct merge *merge)
 {
   enum status status = read_headers(merge);
-  if (status == STATUS_OK) status = choose_picture(merge);
+  if (status == STATUS_OK) choose_picture(merge);
   if (status == STATUS_OK && merge->first == NULL) return STATUS_FILE;
   if (status == STATUS_OK) status = create_picture(merge);
   if (status == STATUS_OK) status = read_files(merge);

@@ -184,16 +184,15 @@ enum status piece_read(const char *path, bool pixels, struct piece *out, char *m
   return status;
 }
 
-int piece_compare(const struct image *part, const struct image *picture, char *out, size_t size)
+bool piece_belongs(const struct image *part, const struct image *picture, char *out, size_t size)
 {
   for (size_t k = 0; k < sizeof COMMON / sizeof *COMMON; k++) {
     const char *here = image_text(part, COMMON[k].name), *there = image_text(picture, COMMON[k].name);
-    const int order = strcmp(here, there);
-    if (order == 0) continue;
+    if (strcmp(here, there) == 0) continue;
     snprintf(out, size, "its %s: '%s', not '%s'", COMMON[k].what, here, there);
-    return order;
+    return false;
   }
-  return 0;
+  return true;
 }
 
 /* Copies the values of a tile's part. channel[c] is the channel of `from` for channel c of `to`. */

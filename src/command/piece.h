@@ -40,9 +40,8 @@ void piece_destroy(struct piece *piece);
  * message[IMAGE_MESSAGE_SIZE] says why. */
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message) STATUS_MUST_CHECK;
 
-/* 0 if both are parts of one picture, by their metadata. If not, `out` says how they differ, and the sign is that of an
- * order of pictures. */
-int piece_compare(const struct image *part, const struct image *picture, char *out, size_t size);
+/* Whether a part belongs to the picture, by their metadata. If not, `out` says how they differ. */
+bool piece_belongs(const struct image *part, const struct image *picture, char *out, size_t size);
 
 /* Copies what `from` has of its tiles into `to`, whose window is the same. Channels are matched by name; returns false if
  * one is missing. */

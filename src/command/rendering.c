@@ -131,7 +131,7 @@ static bool is_part(const struct piece *piece, const struct piece *part, char *m
     snprintf(message, size, "its piece: %zu/%zu, not %zu/%zu", part->number, part->count, piece->number, piece->count);
     return false;
   }
-  return piece_compare(&part->image, &piece->image, message, size) == 0;
+  return piece_belongs(&part->image, &piece->image, message, size);
 }
 
 /* Whether a part is of this scene, the one with this text or this name. If not, the message says so. */

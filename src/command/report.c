@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "command/output.h"
 #include "library/pscn.h"
+#include "page/page.h"
 
 enum { JSON_DIGITS = 15 }; /* of numbers in the statistics: 1e-12 stays 1e-12 */
 
@@ -54,18 +55,6 @@ void report_print(const struct report *report)
           report->build.wall, report->render.wall, report->write.wall);
 }
 
-/* A path as JSON text. If it is not UTF-8, its bytes outside ASCII become '?'. */
-static json_t *path_text(const char *path)
-{
-  json_t *text = json_string(path);
-  char *ascii = text == NULL ? strdup(path) : NULL;
-  if (ascii == NULL) return text;
-  for (char *c = ascii; *c != '\0'; c++) *c = (unsigned char)*c < 0x80 ? *c : '?';
-  text = json_string(ascii);
-  free(ascii);
-  return text;
-}
-
 json_t *report_statistics(const struct report *report)
 {
   const struct intersect_counts *counts = &report->counts;
@@ -74,7 +63,7 @@ json_t *report_statistics(const struct report *report)
   json_t *root = json_pack(
     "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:{s:o, s:o, s:o, s:o}, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
     "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f, s:f}}",
-    "version", PSCN_VERSION, "scene", path_text(report->scene_path), "solver", solver, "tolerance",
+    "version", PSCN_VERSION, "scene", page_of_text(report->scene_path), "solver", solver, "tolerance",
     report->scene->solvers[0].roots.tolerance, "threads", json_count(report->threads), "patches",
     json_count(report->scene->patch_count), "lights", json_count(report->scene->light_count), "rays", "primary",
     json_count(counts->rays[0]), "shadow", json_count(counts->rays[1]), "patches_tested",
@@ -87,7 +76,7 @@ json_t *report_statistics(const struct report *report)
     "build", report->build.cpu, "render", report->render.cpu, "write", report->write.cpu, "load", report->loading);
   if (root == NULL || report->picture_path == NULL) return root;
   const struct rectangle *crop = &report->crop;
-  json_t *picture = json_pack("{s:o, s:[o, o], s:[o, o, o, o], s:o}", "picture", path_text(report->picture_path),
+  json_t *picture = json_pack("{s:o, s:[o, o], s:[o, o, o, o], s:o}", "picture", page_of_text(report->picture_path),
                               "size", json_count(report->width), json_count(report->height), "crop",
                               json_count(crop->x), json_count(crop->y), json_count(crop->width),
                               json_count(crop->height), "samples", json_count(report->samples));
