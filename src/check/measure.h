@@ -62,7 +62,7 @@ struct check {
   struct text_buffer file[CHECK_FILES]; /* what is written; empty: the file must not exist */
 };
 
-/* ---- measure.c ---- */
+/* ---- check.c ---- */
 
 /* Renders, and examines every pixel. Errors go to the listener. */
 enum status check_measure_ours(struct check *check) STATUS_MUST_CHECK;
