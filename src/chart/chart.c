@@ -14,7 +14,6 @@
 enum {
   RAYS = 2048,
   QUICK_RAYS = 1024, /* of the camera, about */
-  MOST_RAYS = 8192,  /* if fewer hit nothing */
   ROUNDS = 5,
   QUICK_ROUNDS = 3
 };
@@ -67,41 +66,18 @@ enum status chart_measure(struct chart *chart, size_t count, const struct runner
 
 /* ---- the rays, and the truth about them ---- */
 
-/* About `wanted` camera rays, and what they hit. */
-static enum status take_rays(struct chart *chart, const struct method *options, size_t wanted, struct hit **out_hits)
-{
-  enum status status = rays_of_camera(chart->scene, chart->request->width, chart->request->height, wanted, chart->arena,
-                                      &chart->rays[RAYS_CAMERA]);
-  pscn_runner_free(&chart->yardstick);
-  if (status == STATUS_OK) status = pscn_runner_create(chart->scene, options, chart->rays, &chart->yardstick);
-  if (status != STATUS_OK) return status;
-  const size_t count = chart->rays[RAYS_CAMERA].count;
-  *out_hits = arena_alloc(chart->arena, count + 1, sizeof **out_hits);
-  if (*out_hits == NULL) return STATUS_LIMIT;
-  pscn_runner_hits(&chart->yardstick, *out_hits);
-  return STATUS_OK;
-}
-
-static bool any_hits(const struct ray_list *rays, const struct hit hits[])
-{
-  for (size_t k = 0; k < rays->count; k++)
-    if (hits[k].patch != HIT_NONE) return true;
-  return false;
-}
-
-/* Few rays may all miss what is small in the picture. Then more are taken, unless a number was requested: a chart
- * without errors is useless. */
+/* The camera rays, and the shadow rays of their hits. */
 static enum status prepare_rays(struct chart *chart, const struct method *options)
 {
-  struct hit *hits;
-  size_t wanted = chart->wanted;
-  enum status status = take_rays(chart, options, wanted, &hits);
-  while (status == STATUS_OK && chart->request->rays == 0 && !any_hits(&chart->rays[RAYS_CAMERA], hits) &&
-         wanted < MOST_RAYS)
-    status = take_rays(chart, options, wanted *= 2, &hits);
+  struct ray_list *camera = &chart->rays[RAYS_CAMERA];
+  enum status status = rays_of_camera(chart->scene, chart->request->width, chart->request->height, chart->wanted,
+                                      chart->arena, camera);
+  if (status == STATUS_OK) status = pscn_runner_create(chart->scene, options, chart->rays, &chart->yardstick);
   if (status != STATUS_OK) return status;
-  return rays_of_shadows(chart->scene, chart->yardstick.tracer, &chart->rays[RAYS_CAMERA], hits, chart->arena,
-                         &chart->rays[RAYS_SHADOW]);
+  struct hit *hits = arena_alloc(chart->arena, camera->count + 1, sizeof *hits);
+  if (hits == NULL) return STATUS_LIMIT;
+  pscn_runner_hits(&chart->yardstick, hits);
+  return rays_of_shadows(chart->scene, chart->yardstick.tracer, camera, hits, chart->arena, &chart->rays[RAYS_SHADOW]);
 }
 
 static enum status find_truths(struct chart *chart)

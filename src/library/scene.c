@@ -241,7 +241,8 @@ static enum pscn_status build(struct pscn_scene *scene, const struct origin *ori
   if (status == PSCN_LIMIT && memory_limit_reached())
     diagnostics_error(diagnostics, NOWHERE, "the scene takes more memory than max_memory allows");
   if (status == PSCN_OK && intersector_cut_less(scene->intersector))
-    diagnostics_warning(diagnostics, NOWHERE, "memory is short, so patches are cut into fewer leaves than 'split' requests");
+    diagnostics_warning(diagnostics, NOWHERE,
+                        "memory is short, so patches are cut into fewer leaves than 'split' requests");
   return status == PSCN_USAGE ? wrong(scene, "PSCN_KERNEL names instructions that this processor does not have")
                               : status;
 }

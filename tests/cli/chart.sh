@@ -65,14 +65,6 @@ for name in nothing aside; do
   ls out4
 done
 
-# Objects that are small in the picture are met by more rays, twice as many until one hits, unless the number of rays is
-# given.
-sed 's/location <[^>]*>/location <0, 0.4, -20>/; s/look_at <[^>]*>/look_at <5, 2, 0>/' "$SCENES/flat.pscn" >small.pscn
-for rays in '' '--rays 1024'; do
-  chart small.pscn --quick --size 320x240 $rays --rounds 1 --solver bernstein --no-peers --quiet -o out5
-  LC_ALL=C awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } NR == 2 { print $at["rays"], ($at["hits"] > 0) }' out5/chart.csv
-done
-
 # A standard output that cannot be written.
 pscn chart nothing.pscn $one --no-peers -o out8 2>/dev/null >/dev/full
 echo "exit $?"
