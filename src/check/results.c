@@ -1,5 +1,4 @@
-/* The files of a check: its pictures, its numbers, and its page. The page works without scripts: its slider is a box
- * that the reader widens; where scripts run, a control below it does the same. */
+/* The files of a check: its pictures, its numbers, and its page. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
