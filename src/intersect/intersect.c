@@ -148,8 +148,8 @@ void tracer_end(struct tracer *tracer)
 {
   for (int h = 0; h < PACKETS_MAX; h++) {
     struct gather *gather = &tracer->gather[h];
-    memory_free(gather->roots.at), memory_free(gather->open.at), memory_free(gather->order.at);
-    memory_free(gather->regions.at), memory_free(gather->list.at);
+    memory_free(gather->hits.at);
+    for (int l = 0; l < LANES_MAX; l++) memory_free(gather->lane[l].found.at), memory_free(gather->lane[l].regions.at);
   }
   memory_free(tracer->hits.at);
 }

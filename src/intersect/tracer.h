@@ -47,13 +47,14 @@ struct made_leaf {
 };
 
 /* All that is found on the rays of a packet, if all hits are wanted (lanes/gather.h). */
+enum { LANES_MAX = 8 };
 struct gather {
-  struct growing roots;   /* struct gathered, as the lanes took them */
-  struct growing open;    /* struct gathered_region: what the lanes left open */
-  struct growing order;   /* const struct gathered *: the roots, lane by lane, in their order */
-  struct growing regions; /* struct exact_region: one lane's */
-  struct exact_list list; /* what the last resort makes of one lane's regions */
-  bool failed;            /* memory was short */
+  struct growing hits; /* struct hit: the answers of the roots that the lanes took */
+  struct gathered {
+    struct exact_list found; /* those of one lane, `taken` their places in `hits`; then what exact_all makes of them */
+    struct growing regions;  /* struct exact_region: what it left open */
+  } lane[LANES_MAX];
+  bool failed; /* memory was short */
 };
 
 /* The budget of a ray, in units of one box of the hierarchy tested, some 25 ns. All work is charged to it, by the

@@ -120,7 +120,10 @@ static void compare(const struct pair *pair, int kind, struct random *random, wo
       if (hit->patch != HIT_NONE) hits++, hit->patch = pair->first[hit->patch];
       /* what share of the work is left for what is in doubt also depends on the boxes of twins */
       if (hit->certainty != CERTAINTY_CERTAIN && asked.hit[0][l].certainty != CERTAINTY_CERTAIN) continue;
-      assert_same_hit("twins or not", kind, &asked.rays[l], &asked.hit[0][l], hit);
+      /* where several patches of one plane are met, either the lanes or the last resort give the last places */
+      const bool same = kind == WORLD_FLAT ? hits_agree(&asked.rays[l], &asked.hit[0][l], hit)
+                                           : same_hit(&asked.hit[0][l], hit);
+      if (!same) world_print_case("twins or not", kind, &asked.rays[l], &asked.hit[0][l], hit), fail();
       assert_int_equal(asked.occluded[0][l], asked.occluded[1][l]);
       if (all->certainty == CERTAINTY_CERTAIN && few->certainty == CERTAINTY_CERTAIN)
         assert_all_there(pair, all, few), certain++;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/real.h"
 #include "intersect/exact/judge.h"
 
 bool exact_list_add(struct exact_list *list, const struct exact_found *found)
@@ -29,23 +30,35 @@ static void list_close(struct exact_list *list)
   list->count = kept;
 }
 
-/* By t, then by everything else, so that the order does not depend on how they came. At equal t and patch the lanes'
- * roots come first, in their order. */
+/* By t, then by everything else but `taken`, so that the order does not depend on how they came. At equal t and patch the
+ * lanes' roots come first, in the order of struct best. */
 static int by_t(const void *a, const void *b)
 {
   const struct exact_found *x = a, *y = b;
   if (x->root.t != y->root.t) return x->root.t < y->root.t ? -1 : 1;
   if (x->root.patch != y->root.patch) return x->root.patch < y->root.patch ? -1 : 1;
   if ((x->taken < 0) != (y->taken < 0)) return x->taken < 0 ? 1 : -1;
-  if (x->taken != y->taken) return x->taken < y->taken ? -1 : 1;
+  if (x->leaf != y->leaf) return x->leaf < y->leaf ? -1 : 1;
   if (x->root.u != y->root.u) return x->root.u < y->root.u ? -1 : 1;
   if (x->root.v != y->root.v) return x->root.v < y->root.v ? -1 : 1;
   return x->kind < y->kind ? -1 : x->kind > y->kind;
 }
 
-static void sort(struct exact_list *list)
+/* Up to this many are sorted faster by insertion, because the walk finds them nearly in order. */
+enum { SORTED_ONE_BY_ONE = 24 };
+
+void exact_list_sort(struct exact_list *list)
 {
-  if (list->count > 1) qsort(list->at, list->count, sizeof *list->at, by_t);
+  if (list->count > SORTED_ONE_BY_ONE) {
+    qsort(list->at, list->count, sizeof *list->at, by_t);
+    return;
+  }
+  for (size_t k = 1; k < list->count; k++) {
+    const struct exact_found here = list->at[k];
+    size_t n = k;
+    for (; n > 0 && by_t(&here, &list->at[n - 1]) < 0; n--) list->at[n] = list->at[n - 1];
+    list->at[n] = here;
+  }
 }
 
 /* Whether b, of no less t, may be met at the same t as a. */
@@ -102,7 +115,7 @@ static void order(struct judge *j)
       j->doubt |= !sure;
     }
   }
-  sort(j->list);
+  exact_list_sort(j->list);
   for (size_t k = 1; k < j->list->count; k++) {
     const struct exact_found here = at[k];
     size_t n = k;
@@ -114,14 +127,29 @@ static void order(struct judge *j)
   }
 }
 
+/* Whether all are hits, one clearly behind the other. */
+static bool clearly_apart(const struct exact_list *list)
+{
+  double reach = -INFINITY;
+  for (size_t k = 0; k < list->count; k++) {
+    const struct exact_found *found = &list->at[k];
+    const double t = (double)found->root.t, off = found->root.t_error + UNIT_ROUNDOFF * fabs(t);
+    if (found->kind != EXACT_INSIDE || t - off <= reach) return false;
+    reach = t + off;
+  }
+  return true;
+}
+
 bool exact_all(const struct exact_case *asked, struct exact_list *list)
 {
   struct judge j;
+  exact_list_sort(list);
+  if (asked->region_count == 0 && clearly_apart(list)) return true;
   judge_run(&j, asked, JUDGE_ALL, list);
-  sort(list);
+  exact_list_sort(list);
   leave_out_same(&j);
   settle_borders(&j);
-  sort(list);
+  exact_list_sort(list);
   leave_out_same(&j);
   order(&j);
   return !j.doubt;

@@ -69,6 +69,7 @@ struct exact_found {
   struct exact_root root; /* of an open one only u, v, t and t_error */
   enum exact_kind kind;
   int64_t taken; /* number of the lanes' root that it is; negative: none of theirs */
+  int64_t leaf;  /* of a root of the lanes: where they found it */
   bool tied;     /* made sharp to tell it from another surface's, so its answer must be sharp too */
 };
 
@@ -116,6 +117,9 @@ bool exact_all(const struct exact_case *asked, struct exact_list *list);
 
 /* all.c: returns false if there was no room. */
 bool exact_list_add(struct exact_list *list, const struct exact_found *found);
+
+/* all.c: by t, then by everything that does not depend on how they came. */
+void exact_list_sort(struct exact_list *list);
 
 /* Whether the ray hits anything, or may do so. */
 bool exact_occluded(const struct exact_case *asked);

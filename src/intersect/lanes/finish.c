@@ -33,19 +33,6 @@ static struct exact_case lane_case(const struct packet *p, unsigned lane)
                              .limit = packet_exact_limit(p, lane)};
 }
 
-/* The lane's best root, which is certain. */
-static struct exact_root lane_root(const struct packet *p, unsigned lane)
-{
-  const struct best *best = &p->best;
-  return (struct exact_root){.patch = (uint32_t)best->patch[lane],
-                             .u = best->u[lane],
-                             .v = best->v[lane],
-                             .t = best->t[lane],
-                             .radius_u = best->radius_u[lane],
-                             .radius_v = best->radius_v[lane],
-                             .t_error = p->t_far[lane] - best->t[lane]};
-}
-
 static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
 {
   const struct best *best = &p->best;
@@ -60,7 +47,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
   struct best *best = &p->best;
   struct exact_case wanted = lane_case(p, lane);
   const bool hit = best->patch[lane] != NO_PATCH;
-  const struct exact_root known = lane_root(p, lane);
+  const struct exact_root known = packet_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
   if (hit && best->certain[lane]) wanted.known = &known;
   else if (hit) wanted.maybe = &maybe;
@@ -84,7 +71,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 /* Writes the hit of a lane whose best root the last step did not make good. */
 static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct hit *out)
 {
-  struct exact_root root = lane_root(p, lane);
+  struct exact_root root = packet_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
   if (p->best.certain[lane]) exact_root_hit(p->model, &p->rays[lane], &root, sure, out);
   else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);

@@ -7,21 +7,6 @@
 
 #include "intersect/lanes/packet.h"
 
-/* A root as it was taken: u, v and their radii, t and its error, and its hit. */
-struct gathered {
-  double uv[4], distance[4]; /* as lanes_store4 writes them; only distance[0] and [1] are used */
-  struct hit hit;
-  int64_t leaf; /* with the hit's patch, it orders roots of equal t, as in struct best */
-  uint8_t lane;
-  bool certain;
-};
-
-/* What a lane left open. */
-struct gathered_region {
-  struct exact_region region;
-  unsigned lane;
-};
-
 /* Has the packet, which has just been started, gather there, beginning with nothing. */
 void gather_start(struct packet *p, struct gather *gather);
 

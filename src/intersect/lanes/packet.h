@@ -173,6 +173,19 @@ LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct mo
   return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
 }
 
+/* The lane's best root. */
+static inline struct exact_root packet_root(const struct packet *p, unsigned lane)
+{
+  const struct best *best = &p->best;
+  return (struct exact_root){.patch = (uint32_t)best->patch[lane],
+                             .u = best->u[lane],
+                             .v = best->v[lane],
+                             .t = best->t[lane],
+                             .radius_u = best->radius_u[lane],
+                             .radius_v = best->radius_v[lane],
+                             .t_error = p->t_far[lane] - best->t[lane]};
+}
+
 /* candidate.c: tries the leaf, with this patch and number, on the lanes of `active`, and keeps roots that come before
  * the best. */
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
