@@ -54,7 +54,8 @@ struct leaf_parts {
   double rest[16][3]; /* coefficient of s^i t^j at rest[4 * i + j] */
   double error;       /* bound on what rounding the rest adds to local_ray.error in either plane's polynomial */
   bool final;         /* its rounding is so small that its roots need no last step */
-  double last_step; /* after a step up to this, in leaf parameters, the root is right to the rounding of its coordinates */
+  double
+    last_step; /* after a step up to this, in leaf parameters, the root is right to the rounding of its coordinates */
 };
 
 #define LEAF_GRAIN 0x1p-24

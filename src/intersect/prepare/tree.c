@@ -12,11 +12,6 @@
 #define SMALL_BOX 0x1p-8
 #define SMALL_PART 0x1p-6
 
-/* If they do not, boxes no larger than this, of which floats tell little (2^-21 of the frame is added to a box), get
- * several trees: one for each GROUP_LEAST or more that lie within such a part. */
-#define TINY_BOX 0x1p-16
-enum { GROUP_LEAST = 8 };
-
 static double box_extent(const struct bvh_box *box)
 {
   double extent = 0;
@@ -25,7 +20,7 @@ static double box_extent(const struct bvh_box *box)
 }
 
 /* All boxes of the model, given less tree_about, and the parts that they fall into, each with its hull. The first part is
- * that of model->tree; the others are set apart from it or from one another. */
+ * that of model->tree; each other one is set apart from the one before. */
 struct parts {
   const struct model *model;
   struct bvh_box *boxes;
@@ -63,38 +58,8 @@ static size_t larger_first(const struct parts *all, uint32_t index[], size_t cou
   return large;
 }
 
-/* Moves boxes whose centers are below `place` on the axis to the front; returns how many there are. */
-static size_t lower_first(const struct parts *all, uint32_t index[], size_t count, int axis, double place)
-{
-  size_t lower = 0;
-  for (size_t k = 0; k < count; k++) {
-    const uint32_t here = index[k];
-    if (box_center(&all->boxes[here], axis) < place) index[k] = index[lower], index[lower++] = here;
-  }
-  return lower;
-}
-
-static void part_add(struct parts *all, double frame, uint32_t index[], size_t count);
-
-/* Finds the groups among these boxes, which are tiny, by halving the space that they fill. Both halves have some,
- * because the hull is far larger than the boxes. */
-static void find_groups(struct parts *all, double frame, uint32_t index[], size_t count)
-{
-  if (count < GROUP_LEAST) return;
-  const struct bvh_box hull = hull_of(all, index, count);
-  if (box_extent(&hull) <= SMALL_PART * frame) {
-    part_add(all, frame_of(&hull), index, count);
-    return;
-  }
-  int axis = 0;
-  for (int k = 1; k < 3; k++)
-    if (hull.hi[k] - hull.lo[k] > hull.hi[axis] - hull.lo[axis]) axis = k;
-  const size_t lower = lower_first(all, index, count, axis, box_center(&hull, axis));
-  find_groups(all, frame, index, lower);
-  find_groups(all, frame, index + lower, count - lower);
-}
-
-/* Makes these boxes a part with a frame of that size, except for those that are set apart from it in turn. */
+/* Makes these boxes a part with a frame of that size, except for the small ones among them that are set apart from it in
+ * turn. */
 static void part_add(struct parts *all, double frame, uint32_t index[], size_t count)
 {
   struct bvh_box *hulls = memory_grow(all->hull, &all->room, all->count + 1, sizeof *hulls);
@@ -106,14 +71,8 @@ static void part_add(struct parts *all, double frame, uint32_t index[], size_t c
   const size_t large = larger_first(all, index, count, SMALL_BOX * frame);
   uint32_t *small = index + large;
   const struct bvh_box hull = hull_of(all, small, count - large);
-  if (large > 0 && count - large > 1 && box_extent(&hull) <= SMALL_PART * frame) {
+  if (large > 0 && count - large > 1 && box_extent(&hull) <= SMALL_PART * frame)
     part_add(all, frame_of(&hull), small, count - large);
-  } else {
-    const size_t larger = larger_first(all, small, count - large, TINY_BOX * frame), tiny = count - large - larger;
-    const struct bvh_box of_tiny = hull_of(all, small + larger, tiny);
-    /* if it is all of them, the frame is as fine as doubles can tell */
-    if (tiny < count || box_extent(&of_tiny) > SMALL_PART * frame) find_groups(all, frame, small + larger, tiny);
-  }
 }
 
 void tree_box(const double middle[3], double frame, struct bvh_box *box)
