@@ -1,10 +1,12 @@
-/* Manual pages (man(7)), made from the help texts and from the library's header. */
+/* Manual pages (man(7)), made from the help texts, from docs/language.md and from the library's header. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "library/pscn.h"
 #include "packaging/pages.h"
+
+enum { LINE_SIZE = 4096 }; /* of a text in the sources */
 
 /* Writes text for roff, so that no line of it is a request. */
 static void put(FILE *file, const char *text, size_t length)
@@ -114,15 +116,72 @@ void write_manual(const struct command *command, FILE *file)
   put_end(file, command);
 }
 
+/* Begins the page of a text in the sources, and opens that. `name`: the page's name and subject. */
+static FILE *begin_page(FILE *file, int section, const char *name, const char *path)
+{
+  FILE *source = fopen(path, "r");
+  if (source == NULL) perror(path), exit(4);
+  fprintf(file, ".TH \"PSCN\" %d \"\" \"pscn %s\" \"pscn\"\n.SH NAME\n%s\n", section, PSCN_VERSION, name);
+  return source;
+}
+
+/* Writes a line of Markdown without its end: `code` and **strong** words are bold, links are their texts.
+ * `quote`: '`' or '*' within such words, which may continue on the next line, otherwise 0. */
+static void put_markdown(FILE *file, const char *text, char *quote)
+{
+  for (; *text != '\0' && *text != '\n'; text++) {
+    if ((*text == '`' && *quote != '*') || (strncmp(text, "**", 2) == 0 && *quote != '`')) {
+      *quote = *quote == 0 ? *text : 0;
+      fputs(*quote == 0 ? "\\fR" : "\\fB", file);
+      text += *text == '*';
+    } else if (*quote == 0 && strncmp(text, "](", 2) == 0 && strchr(text, ')') != NULL) {
+      text = strchr(text, ')');
+    } else if (*quote != 0 || *text != '[') {
+      put(file, text, 1);
+    }
+  }
+}
+
+/* Writes a row of a table: its first cell is a tag, the others follow as text. */
+static void put_row(FILE *file, char *row, char *quote)
+{
+  const char *before = ".TP\n";
+  for (char *rest, *cell = strtok_r(row, "|\n", &rest); cell != NULL; cell = strtok_r(NULL, "|\n", &rest)) {
+    fputs(before, file);
+    put_markdown(file, cell + strspn(cell, " "), quote);
+    before = before[0] == '.' ? "\n\\&" : " ";
+  }
+  fputc('\n', file);
+}
+
+void write_language(FILE *file)
+{
+  char line[LINE_SIZE], quote = 0;
+  bool verbatim = false, table = false;
+  FILE *source = begin_page(file, 5, "pscn \\- the scene language of pscn", PSCN_LANGUAGE);
+  while (fgets(line, sizeof line, source) != NULL) {
+    const char *text = line + strspn(line, " ");
+    const bool example = text - line >= 4, blank = *text == '\n', item = strncmp(text, "- ", 2) == 0;
+    if (verbatim != example && !blank) fputs(example ? ".nf\n" : ".fi\n", file), verbatim = example;
+    if (example) put_text(file, line);
+    else if (*line == '|') {
+      if (table && line[1] != '-') put_row(file, line, &quote); /* without the head */
+    } else {
+      fputs(blank ? ".PP" : *text == '#' ? ".SH " : item ? ".IP \\(bu 2\n" : "", file);
+      put_markdown(file, text + (item ? 2 : strspn(text, "# ")), &quote);
+      fputc('\n', file);
+    }
+    table = *line == '|';
+  }
+  fputs(".SH SEE ALSO\n\\fBpscn\\fR(1),\n\\fBpovray\\fR(1)\n", file);
+  fclose(source);
+}
+
 void write_library(FILE *file)
 {
-  char line[4096];
-  FILE *header = fopen(PSCN_HEADER, "r");
-  if (header == NULL) perror(PSCN_HEADER), exit(4);
-  fprintf(file,
-          ".TH \"PSCN\" 3 \"\" \"pscn %s\" \"pscn\"\n.SH NAME\nlibpscn \\- exact intersection of rays with bicubic "
-          "patches\n.SH SYNOPSIS\n.B #include <pscn.h>\n.SH DESCRIPTION\nThe header:\n.PP\n.nf\n",
-          PSCN_VERSION);
+  char line[LINE_SIZE];
+  FILE *header = begin_page(file, 3, "libpscn \\- exact intersection of rays with bicubic patches", PSCN_HEADER);
+  fputs(".SH SYNOPSIS\n.B #include <pscn.h>\n.SH DESCRIPTION\nThe header:\n.PP\n.nf\n", file);
   while (fgets(line, sizeof line, header) != NULL) put_text(file, line);
   fputs(".fi\n", file);
   fclose(header);

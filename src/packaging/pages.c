@@ -66,8 +66,13 @@ int main(int argc, char **argv)
   static const struct {
     const char *name;
     void (*write)(FILE *file);
-  } pages[] = {{"pscn.3", write_library}, {"pscn.bash", write_bash}, {"_pscn", write_zsh},
-               {"pscn.fish", write_fish}, {"pscn.vim", write_vim},   {"pscn.tmLanguage.json", write_textmate}};
+  } pages[] = {{"pscn.3", write_library},
+               {"pscn.5", write_language},
+               {"pscn.bash", write_bash},
+               {"_pscn", write_zsh},
+               {"pscn.fish", write_fish},
+               {"pscn.vim", write_vim},
+               {"pscn.tmLanguage.json", write_textmate}};
   if (argc != 2 || chdir(argv[1]) != 0) return 2;
   for (size_t k = 0; k < sizeof pages / sizeof *pages; k++) {
     FILE *file = begin(pages[k].name);

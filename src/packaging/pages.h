@@ -9,8 +9,9 @@
 /* The manual page of a command, or for NULL that of pscn. */
 void write_manual(const struct command *command, FILE *file);
 
-/* That of the library, which shows its header. */
+/* That of the library, which shows its header, and that of the scene language, made of docs/language.md. */
 void write_library(FILE *file);
+void write_language(FILE *file);
 
 /* Completions for the shells. */
 void write_bash(FILE *file);

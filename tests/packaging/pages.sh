@@ -30,6 +30,8 @@ if have groff; then
     warnings=$(groff -man -ww -z -Kutf8 "$page" 2>&1)
     [ -z "$warnings" ] || say "$warnings"
   done
+  text=$(groff -man -Tascii -P-c "$share/man/man5/pscn.5" | sed 's/.\x08//g')
+  grep -q '^ *camera { }$' <<<"$text" && ! grep -q '[`]\|\*\*\|](' <<<"$text" || say "pscn(5) shows Markdown"
   diff <(groff -man -Tutf8 -Kutf8 -P-c "$share/man/man3/pscn.3" | sed -n '/pscn: exact/,$ s/^       //p' | grep -v '^$') \
     <(grep -v '^$' "$folder/include/pscn.h") >/dev/null || say "pscn(3) is not the header"
 fi
