@@ -14,6 +14,26 @@
 
 enum { JSON_DIGITS = 15 }; /* of numbers in the statistics: 1e-12 stays 1e-12 */
 
+/* "1,234,567" */
+static void group(uint64_t number, char out[32])
+{
+  char digits[24];
+  const int length = snprintf(digits, sizeof digits, "%" PRIu64, number);
+  for (int k = 0; k < length; k++) {
+    *out++ = digits[k];
+    if (k < length - 1 && (length - 1 - k) % 3 == 0) *out++ = ',';
+  }
+  *out = '\0';
+}
+
+/* A line with up to three numbers. */
+__attribute__((format(printf, 1, 0))) static void print_counts(const char *format, uint64_t a, uint64_t b, uint64_t c)
+{
+  char text[3][32];
+  group(a, text[0]), group(b, text[1]), group(c, text[2]);
+  fprintf(stderr, format, text[0], text[1], text[2]);
+}
+
 void report_print(const struct report *report)
 {
   const struct intersect_counts *counts = &report->counts;
@@ -26,15 +46,11 @@ void report_print(const struct report *report)
   }
   fprintf(stderr, "solver   %s, %zu patch%s, %zu thread%s\n", solver, report->scene->patch_count,
           report->scene->patch_count == 1 ? "" : "es", report->threads, report->threads == 1 ? "" : "s");
-  fprintf(stderr, "rays     %" PRIu64 " primary, %" PRIu64 " shadow\n", counts->rays[0], counts->rays[1]);
-  fprintf(stderr, "answers  %" PRIu64 " certain, %" PRIu64 " grazing (of primary rays)\n", counts->certain,
-          counts->grazing);
-  fprintf(stderr,
-          "leaves   %" PRIu64 " ray-leaf pairs, %" PRIu64 " of them solved by a resultant of full degree, %" PRIu64
-          " in exact arithmetic\n",
-          counts->patches_tested, counts->stages[STAGE_RESULTANT], counts->escalated);
-  fprintf(stderr, "roots    %" PRIu64 " found, %" PRIu64 " accepted as hits\n", counts->roots_found,
-          counts->roots_accepted);
+  print_counts("rays     %s primary, %s shadow\n", counts->rays[0], counts->rays[1], 0);
+  print_counts("answers  %s certain, %s grazing (of primary rays)\n", counts->certain, counts->grazing, 0);
+  print_counts("leaves   %s ray-leaf pairs, %s of them solved by a resultant of full degree, %s in exact arithmetic\n",
+               counts->patches_tested, counts->stages[STAGE_RESULTANT], counts->escalated);
+  print_counts("roots    %s found, %s accepted as hits\n", counts->roots_found, counts->roots_accepted, 0);
   fprintf(stderr, "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", report->parse.wall,
           report->build.wall, report->render.wall, report->write.wall);
 }

@@ -20,15 +20,19 @@ LC_ALL=C awk -F '[ :,]+' 'NR == FNR { gsub(",", "."); split($0, t, " "); process
 for solver in 'aberth { split 1 }' 'laguerre { form paper }'; do
   pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 40x30 --solver "$solver" --stats a.json 2>said
   LC_ALL=C awk -F '[ :,"]+' '
+    function grouped(n,    s) {
+      for (s = n ""; match(s, /[0-9][0-9][0-9][0-9](,|$)/);) s = substr(s, 1, RSTART) "," substr(s, RSTART + 1)
+      return s
+    }
     /{$/ { part = $2 == "" ? "" : $2 "."; next }
     /^  }/ { part = ""; next }
     { is[part $2] = $3 }
     END {
-      print "rays     " is["rays.primary"] " primary, " is["rays.shadow"] " shadow"
-      print "answers  " is["answers.certain"] " certain, " is["answers.grazing"] " grazing (of primary rays)"
-      print "leaves   " is["patches_tested"] " ray-leaf pairs, " is["stages.resultant"] \
-        " of them solved by a resultant of full degree, " is["subdivided"] " in exact arithmetic"
-      print "roots    " is["roots.found"] " found, " is["roots.accepted"] " accepted as hits"
+      print "rays     " grouped(is["rays.primary"]) " primary, " grouped(is["rays.shadow"]) " shadow"
+      print "answers  " grouped(is["answers.certain"]) " certain, " grouped(is["answers.grazing"]) " grazing (of primary rays)"
+      print "leaves   " grouped(is["patches_tested"]) " ray-leaf pairs, " grouped(is["stages.resultant"]) \
+        " of them solved by a resultant of full degree, " grouped(is["subdivided"]) " in exact arithmetic"
+      print "roots    " grouped(is["roots.found"]) " found, " grouped(is["roots.accepted"]) " accepted as hits"
       printf "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", is["time.parse"], is["time.build"],
         is["time.render"], is["time.write"]
     }' a.json | diff said - | grep '^>'
