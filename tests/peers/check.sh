@@ -115,8 +115,7 @@ limits() {
 
 names() {
   # Equal pictures are called equal, and where nothing is hit there is no distance. A name that needs quoting in a
-  # shell, in HTML and in POV-Ray's paths. POV-Ray's warning that
-  # a scene has no version is passed on.
+  # shell, in HTML and in POV-Ray's paths.
   name="a 'name' & \"<more>\" ä"
   mkdir "$name"
   echo '#include "plain.inc"' >"$name/$name.pscn"
@@ -147,13 +146,13 @@ names() {
 
 harm() {
   # Text that only POV-Ray would read does no harm: if it could read or write files, it is not read; it puts no escapes
-  # on the terminal or HTML into the page, and takes no endless time or memory.
+  # on the terminal, and takes no endless time or memory.
   sed -e '/#include "only/d; s/#include "colors.inc"/#include "evil.inc"/; s/Shade = Red/Shade = rgb <1, 0, 0>/' \
     "$scene" >"scenes and more/evil.pscn"
   evil() { printf '%s\n' "$@" >"scenes and more/evil.inc"; }
   quick=(--size 8x6 --steps 0 --grid 0 -o evil "${any[@]}")
   mkdir -p "$HOME"
-  evil "#fopen F \"$folder/written\" write" '#write (F, "x")' '#warning "title"'
+  evil "#fopen F \"$folder/written\" write" '#write (F, "x")' '#error "title"'
   expect 0 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}"
   grep -q "#fopen in 'scenes and more/evil.inc' could read or write files" err || { fail "nothing is told of a file"; cat err; }
   grep -q '#fopen in .*evil.inc.* could read or write files' evil/check.html || fail "the page tells nothing of a file"
@@ -161,10 +160,10 @@ harm() {
   evil '#include concat ("/etc/pass", "wd")'
   expect 0 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}"
   grep -q '#include concat in' err || { fail "nothing is told of an included file"; cat err; }
-  evil '#warning "\u001b]0;title<b>"'
-  expect 0 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}" --steps 1
+  evil '#error "\u001b]0;title"'
+  expect 3 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}"
   grep -q title err || { fail "POV-Ray did not read the file"; cat err; }
-  LC_ALL=C grep -q "$(printf '[\x1b\x07]')" err out evil/check.* && fail "a scene sends escapes"
+  LC_ALL=C grep -q "$(printf '[\x1b\x07]')" err && fail "a scene sends escapes"
   evil '#while (1)' '#end'
   expect 5 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}" --timeout 1
   grep -q 'more than 1 seconds' err || { fail "the time limit is not told"; cat err; }
