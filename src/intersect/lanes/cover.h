@@ -10,7 +10,7 @@
 
 /* The most halvings of a leaf: before its resultant is formed, and when the lanes have found all they can. Choices of
  * speed. */
-enum { COVER_EARLY = 8, COVER_HALVINGS = 16 };
+enum { COVER_EARLY = 11, COVER_HALVINGS = 16 };
 
 /* A proven root of every lane, in the order in which they were found. */
 struct known_root {
