@@ -168,19 +168,6 @@ LANES_INLINE lanes lanes_sqrt(lanes a)
 #endif
 }
 
-/* Lane k: the nearest whole number, ties to even. */
-LANES_INLINE lanes lanes_rint(lanes a)
-{
-#if LANES == 8
-  return _mm512_roundscale_pd(a, _MM_FROUND_CUR_DIRECTION);
-#elif LANES == 4
-  return _mm256_round_pd(a, _MM_FROUND_CUR_DIRECTION);
-#else
-  for (int k = 0; k < LANES; k++) a[k] = __builtin_rint(a[k]);
-  return a;
-#endif
-}
-
 /* Lane k: a b - product, with one rounding. If product is a b rounded, this is its error, exactly. Written so that no
  * contraction of multiply and add by the compiler can change it. */
 LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)

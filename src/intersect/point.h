@@ -8,10 +8,6 @@
 #include "intersect/local_ray.h"
 #include "intersect/model.h"
 
-/* The last resort gives up on a box where a plane's polynomial stays within this many error bounds of zero, its own
- * included. */
-#define UNDECIDED_ERRORS 5
-
 /* Su x Sv is the normal without further thought if it is longer than SURFACE_SURE times the squared derivatives and
  * SURFACE_SURE times SURFACE_LEAST times the derivatives: rounding takes some 2^-47 of derivatives in the patch's
  * frame, whatever their size. */
@@ -24,10 +20,10 @@
 #define POINT_ERROR(scale, tangent, magnitude) \
   (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
 
-/* A ray that starts nearer to the surface than this plus the point's own error is as good as one that starts on it: 128 times the rounding of the new origin (tracer_leave), and the distance within which the last resort cannot exclude a root,
- * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
- * box, and what a copy is loose by; doubled because the planes are oblique. */
+/* A ray that starts nearer to the surface than this plus the point's own error is as good as one that starts on it: 128
+ * times the rounding of the new origin (tracer_leave), and five error bounds of either plane, with moments of at most 2 as
+ * for all rays that start in the patch's box, and what a copy is loose by; doubled because the planes are oblique. */
 #define CLEARANCE(scale, loose, magnitude) \
-  (512 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
+  (512 * UNIT_ROUNDOFF * (magnitude) + 10 * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
 
 #endif
