@@ -24,7 +24,7 @@ static inline double tree_about(const struct model_tree *whole, int k)
 /* Takes the box to a frame of that size about `middle`, widened by what that may round. */
 void tree_box(const double middle[3], double frame, struct bvh_box *box);
 
-/* Builds model->tree, model->twins and model->inner over the boxes of the model's leaves, and then of its copies, given less
+/* Builds model->tree and model->inner over the boxes of the model's leaves, and then of its copies, given less
  * tree_about, in the frame that the tree has already. Uses the boxes up. STATUS_LIMIT if memory or threads are short;
  * then there may be nodes to free. */
 enum status tree_build(struct model *model, struct bvh_box boxes[], const struct team *team) STATUS_MUST_CHECK;
