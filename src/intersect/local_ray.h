@@ -15,10 +15,11 @@
 #include "intersect/intersect.h"
 #include "intersect/model.h"
 
-/* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for |x|
- * <= 1: net 8 (two for leaves that are cut exactly; others add the rounding of the cut, prepare/leaf.c), slope 2 (packet.c multiplies by the reciprocal), moment 4|m|, the two operations 2 + |m|, and for the
- * value ten products and sums on coefficients of at most 2 + |m|. A value from weights, as in geometry/patch.h, has
- * eighteen: still less than sqrt 2 times this, and the certificate has that to spare for sums of a row. */
+/* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for
+ * |x| <= 1: net 8 (two for leaves that are cut exactly; others add the rounding of the cut, prepare/leaf.c), slope 2
+ * (packet.c multiplies by the reciprocal), moment 4|m|, the two operations 2 + |m|, and for the value ten products
+ * and sums on coefficients of at most 2 + |m|. A value from weights, as in geometry/patch.h, has eighteen: still
+ * less than sqrt 2 times this, and the certificate has that to spare for sums of a row. */
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
 
 /* What double-double leaves unknown of a moment m_i. Of q_i d_k and q_k d_i, exact products of the leading parts of the

@@ -28,7 +28,8 @@ struct method_planes {
 };
 
 /* Forms r from the planes, finds its roots by the method's solver, from `warm` if that is not NULL, and substitutes
- * back. The solver takes no more than most_steps for a root, but one in any case. The results are starting points only: nothing here is proven. `story`, if not NULL, gets what became of r. */
+ * back. The solver takes no more than most_steps for a root, but one in any case. The results are starting points only:
+ * nothing here is proven. `story`, if not NULL, gets what became of r. */
 void method_find(const struct method *method, const struct method_planes *planes, int most_steps,
                  struct solver_warm *warm, struct method_roots *out, struct explained_roots *story);
 

@@ -6,8 +6,9 @@
  *
  * The lanes take a root only where double precision leaves no question: the root is proven, strictly inside its patch,
  * strictly within the ray's range, and not next to another one. Everything they leave open comes here as a list of
- * patches. The order of work: judge.c takes them in the order in which the ray meets them; sight.c writes a patch, as the ray sees it, as nets of integers; search.c halves them (piece.c)
- * until each piece has no root or one; judge.c decides what a root means for the answer; all.c and vertex.c count hits.
+ * patches. The order of work: judge.c takes them in the order in which the ray meets them; sight.c writes a patch, as the
+ * ray sees it, as nets of integers; search.c halves them (piece.c) until each piece has no root or one; judge.c decides
+ * what a root means for the answer; all.c and vertex.c count hits.
  *
  * A ray meets a patch in its borders and corners, too. All decisions are exact but these: two roots that the ray meets
  * within 2^-106 of their patches count as met at one t; and what is open when the work is used up is `grazing`.

@@ -210,8 +210,8 @@ static void search(struct judge *j)
   struct exact_region *regions = j->asked->regions;
   const size_t count = sort_regions(regions, j->asked->region_count, j->all);
   for (size_t k = 0; k < count && (j->all || regions[k].near <= j->limit); k++) {
-    const int all = j->work, fair = (int)((size_t)real_max(all, 0) / (count - k));
     if (is_met_behind(j, regions[k].patch)) continue;
+    const int all = j->work, fair = (int)((size_t)real_max(all, 0) / (count - k));
     const int share = fair > LEAST_SHARE ? fair : all < LEAST_SHARE ? all : LEAST_SHARE;
     if (all <= 0) {
       judge_left(j, regions[k].near, INFINITY);

@@ -1,7 +1,8 @@
 /* A packet in the coordinates of an object, and back. Compiled once per instruction set and without contraction.
  *
  * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, and then taken to the
- * object's coordinates. All that is in about twice the precision, so the ray is right to its last places near the object. copies.c bounds the rounding that is left, model_object.error.
+ * object's coordinates. All that is in about twice the precision, so the ray is right to its last places near the
+ * object. copies.c bounds the rounding that is left, model_object.error.
  */
 #include "base/double_lanes.h"
 #include "intersect/lanes/nearest.h"
