@@ -46,7 +46,7 @@ struct made_leaf {
   struct leaf_room is;
 };
 
-/* All that is found on the rays of a packet, if all hits are wanted (lanes/gather.h). */
+/* All that is found on the rays of a packet, if all hits are wanted (lanes/gather.c). */
 enum { LANES_MAX = 8 };
 struct gather {
   struct growing hits; /* struct hit: the answers of the roots that the lanes took */

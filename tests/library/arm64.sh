@@ -2,7 +2,7 @@
 # arm64.sh ANSWERS: libpscn without the program, built for arm64 by a cross compiler, without any library for arm64 but
 # libc, gives the same answers as ANSWERS, the program answers.c of this processor: other roundings of T, u and v by two units in
 # the last place of 1 at most, for processors fuse multiplications and additions otherwise, and of the normal by 2^-44, as
-# far as the last step of Newton's method may turn it (lanes/last_step.c).
+# far as the last step of Newton's method may turn it (lanes/finish.c).
 set -euo pipefail
 for program in aarch64-linux-gnu-gcc qemu-aarch64; do
   command -v "$program" >/dev/null || { echo "skipped: $program is not installed" >&2; exit 77; }

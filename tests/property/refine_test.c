@@ -5,7 +5,6 @@
 #include "cmocka_test.h"
 #include "geometry/edges.h"
 #include "intersect/certificate.h"
-#include "intersect/lanes/nearest.h"
 #include "intersect/lanes/candidate.h"
 #include "property/world.h"
 #include "quad_root.h"

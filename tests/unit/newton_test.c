@@ -1,7 +1,7 @@
 /* Roots on a leaf, and beside it: a proven root is within its radii, however the points are off within their bounds.
  * Compiled once per instruction set (CMakeLists.txt); skipped if the processor lacks it. */
 #include "cmocka_test.h"
-#include "intersect/lanes/newton.h"
+#include "intersect/lanes/candidate.h"
 #include "lanes_main.h"
 #include "quad_root.h"
 #include "unit/lane_subject.h"

@@ -2,7 +2,7 @@
  * as its error allows; none of them may be reported to miss it. Compiled once per instruction set (CMakeLists.txt);
  * skipped if the processor lacks it. */
 #include "cmocka_test.h"
-#include "intersect/lanes/cover.h"
+#include "intersect/lanes/candidate.h"
 #include "lanes_main.h"
 #include "unit/lane_subject.h"
 

@@ -6,7 +6,6 @@
 
 #include "base/real.h"
 #include "intersect/explain.h"
-#include "intersect/lanes/nearest.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
 
@@ -22,6 +21,20 @@ static bool starts_bilinear(const struct candidate *it)
   if (it->patch->lanes == SOLVER_LANES_SIGNS) return true;
   if (it->patch->lanes == SOLVER_LANES_NONE) return false;
   return turn_of(it->leaf->second) <= BENT_TURN * real_min(first[0], first[1]);
+}
+
+/* Let e be the bound on a plane's error (local_ray.h), so that u <= e/36. Then a is off by less than 2.5 e, b w by 8u,
+ * w by its two roundings and that of the start, what is made of them by e + 6u, and the net by 32u. */
+lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open)
+{
+  const struct leaf_slab *slab = &it->leaf->slab[0];
+  const struct line *line = it->line;
+  lanes a, b;
+  slab_values(line, it->axis, slab, &a, &b);
+  lanes from, to, off;
+  ray_ends(p, it, p->t_far, &from, &to, &off);
+  const lanes out = slab->half + 10 * line->error + off, at[2] = {a + b * from, a + b * to};
+  return open & ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
 }
 
 /* A scene with `polish off` wants the roots as its solver finds them. There only the slab closes a leaf before

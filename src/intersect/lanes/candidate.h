@@ -1,15 +1,57 @@
 /* A candidate: a leaf, and those rays of a packet that may pass its boxes and share a dominant axis.
  *
  * Internal to src/intersect/lanes. A candidate goes through a sequence of stages; candidate.c shows their order. All
- * stages have one shape: they take the lanes that are still open, may offer roots (nearest.h), and return the lanes
+ * stages have one shape: they take the lanes that are still open, may offer roots (nearest.c), and return the lanes
  * that are open after them. A stage closes a lane once the leaf is proven to be missed, or all of its roots have been
- * offered. The last resort (exact.h) decides what is open at the end.
+ * offered. The last resort (exact.h) decides what is open at the end. Parameters (u,v) are the leaf's own, [0,1] x [0,1]
+ * over the leaf.
  */
 #ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
 
-#include "intersect/lanes/newton.h"
+#include "intersect/lanes/packet.h"
 #include "intersect/prepare/leaf.h"
+
+/* ---- roots ---- */
+
+/* The result of Newton's method in two dimensions and its proof (certificate.h). The other members have a meaning only
+ * on lanes where `exists` is set, which are among the active ones. */
+struct newton_root {
+  lanes u, v;
+  lanes radius_u, radius_v; /* bounds on the distance of the exact root */
+  lane_mask exists;         /* the exact polynomials have exactly one root within the radii */
+  lane_mask alone;          /* and the leaf has no other */
+};
+
+/* Lanes on which two roots of a leaf may be one, because their enclosures meet. */
+LANES_INLINE lane_mask roots_meet(const struct newton_root *a, const struct newton_root *b)
+{
+  return (lanes_abs(a->u - b->u) <= a->radius_u + b->radius_u + UNIT_ROUNDOFF) &
+         (lanes_abs(a->v - b->v) <= a->radius_v + b->radius_v + UNIT_ROUNDOFF);
+}
+
+/* Lanes whose root is proven, and is in the leaf or may be. */
+LANES_INLINE lane_mask inside(const struct newton_root *r)
+{
+  return r->exists & (r->u >= -r->radius_u) & (r->u - 1 <= r->radius_u) & (r->v >= -r->radius_v) &
+         (r->v - 1 <= r->radius_v);
+}
+
+/* A root on a leaf. Points and derivatives are in the frame of its patch, and usable if the root is within the leaf's
+ * margin. */
+struct leaf_root {
+  struct newton_root at;
+  lanes w, t;                   /* x_k, and t along the ray */
+  lanes left;                   /* bound on a plane's value after the last step */
+  lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters; none of these are set for any hit */
+};
+
+/* newton.c: iterates on the lanes of `active`, and tests the result. The start values start[0] and start[1] are those
+ * of u - 1/2 and v - 1/2. The last step leaves the root right to the last places of its coordinates. */
+void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
+                  struct leaf_root *out);
+
+/* ---- the stages ---- */
 
 enum { RESULTANT_MAX_DEGREE = 18 };
 
@@ -37,19 +79,13 @@ struct candidate {
   lanes variations; /* upper bound on the sign variations of c; -1: not counted */
 };
 
-/* planes.c: tests the slab across the leaf to the last places. Closes lanes where it lies before the ray's start,
+/* candidate.c: tests the slab across the leaf to the last places. Closes lanes where it lies before the ray's start,
  * behind its end, or behind the nearest hit so far. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open);
 
-/* planes.c: a lower bound on the t at which the ray enters the box along the leaf. */
-lanes slab_begin(const struct packet *p, const struct candidate *it);
-
-/* bilinear.c: finds the root of the leaf's bilinear part by a resultant of degree 2, and refines it by Newton's method
+/* newton.c: finds the root of the leaf's bilinear part by a resultant of degree 2, and refines it by Newton's method
  * on the leaf. A lane stays open if the ray is so slanted that the root is not proven to be the only one. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
-
-/* planes.c: sets the plane polynomials a and b. */
-void planes_set(struct candidate *it);
 
 /* cover.c: closes lanes where pieces that cover the leaf show that it has no root, by the default method also none
  * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces with
@@ -60,37 +96,44 @@ lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
  * that has no sign variation. */
 lane_mask stage_resultant(struct candidate *it, lane_mask open);
 
-/* all_roots.c: finds the roots of r by the scene's method. Closes lanes where they are proven to be
+/* resultant.c: finds the roots of r by the scene's method. Closes lanes where they are proven to be
  * all. */
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
 
-/* all_roots.c: returns the real root of r0 + r1 s + r2 s^2 nearest to 0, or the real part of a complex pair, by that
- * method. Removes lanes from *open where it finds none. */
+/* resultant.c: without polish the roots of r are the answer, proven or not. */
+lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
+
+/* ---- what they call ---- */
+
+/* nearest.c: postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it
+ * (exact.h). */
+void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open);
+
+/* nearest.c: offers proven roots of several lanes. */
+void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits);
+
+/* nearest.c: offers points in the leaf of which nothing is proven. */
+void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits);
+
+/* resultant.c: returns the real root of r0 + r1 s + r2 s^2 nearest to 0, or the real part of a complex pair, by the
+ * scene's method. Removes lanes from *open where it finds none. */
 lanes method_quadratic_root(struct packet *p, const struct candidate *it, const lanes r[3], lane_mask *open);
 
-/* The most roots near [0,1] that are tried on a lane: of 18 roots, more are hardly ever real and in [0,1]. A choice of
+/* The most halvings of a leaf: before its resultant is formed, and when the lanes have found all they can. Choices of
  * speed. */
-enum { TRIED_ROOTS = 8 };
+enum { COVER_EARLY = 11, COVER_HALVINGS = 16 };
 
-/* Start values in leaf parameters: the k-th of every lane that has so many. */
-struct root_starts {
-  int count;
-  lanes u[TRIED_ROOTS], v[TRIED_ROOTS];
-  lane_mask has[TRIED_ROOTS];
+/* A proven root of every lane, in the order in which they were found. */
+struct known_root {
+  const struct newton_root *at;
+  lane_mask proven;
 };
 
-/* resultant.c: sets the k-th start values from a value of the kept parameter, near a root of r. */
-void starts_set(const struct candidate *it, int k, lanes kept, struct root_starts *out);
-
-/* resultant.c: takes start values from where the control polygon of r crosses zero last and, if r may have several roots,
- * first. *out is empty before. */
-void polygon_starts(const struct candidate *it, lane_mask open, struct root_starts *out);
-
-/* one_by_one.c: the same from the roots of r by a method that does not run on lanes. */
-void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out);
-
-/* one_by_one.c: without polish the roots of r are the answer, proven or not. */
-lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
+/* cover.c: the lanes of `open` on which all of the leaf's roots between the ends of the ray are among `roots`. On the
+ * others `left`, if not NULL, gets the middle, in s and t, of a piece that is not done with, where one more root may
+ * be. */
+lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
+                       int halvings, lane_mask open, lanes left[2]);
 
 /* A patch lies within |w| < 1 in its frame; a ray is not examined beyond this. */
 #define FRAME_END 2.0
@@ -121,16 +164,10 @@ LANES_INLINE void plane_values(const struct line *line, int axis, const double x
   *b = (j - line->moment[1]) - line->slope[1] * k;
 }
 
-/* planes.c: x_k of the points (u,v). */
-lanes plane_depth(const struct candidate *it, lanes u, lanes v);
-
-/* Whether r is made of the leaf's own polynomials, and so has a root for each of the leaf's. Polynomials of a lower
- * degree are off by the excess. Moved by a constant they have any one root of the leaf as their root, but two roots
- * may need different constants, and so different r. The sign variations of r then prove that there is no root, but do
- * not bound how many there are. */
-LANES_INLINE bool resultant_counts(const struct candidate *it) { return it->form.excess == 0; }
-
-/* t clamped to [0,1], or the middle if it is not a number. */
-LANES_INLINE lanes start_within(lanes t) { return lanes_clamp(lanes_select(t == t, t, lanes_all(0.5)), 0, 1); }
+/* Sets the plane polynomials a and b. */
+LANES_INLINE void planes_set(struct candidate *it)
+{
+  for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
+}
 
 #endif

@@ -5,7 +5,7 @@
  * object. copies.c bounds the rounding that is left, model_object.error.
  */
 #include "base/double_lanes.h"
-#include "intersect/lanes/nearest.h"
+#include "intersect/lanes/packet.h"
 
 /* For a start up to this many times the object's error away, in the object's coordinates, twice the precision leaves
  * less unknown than that error: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). Rays from

@@ -1,9 +1,11 @@
-/* From the best roots to the answers: the last Newton step, the point, the normal; and what goes to the last resort. */
+/* From the best roots to the answers: the last Newton step, the point, the normal; and what goes to the last resort.
+ *
+ * Compiled once per instruction set and without contraction.
+ */
 #include <assert.h>
 #include <stddef.h>
 
-#include "intersect/exact/exact.h"
-#include "intersect/lanes/last_step.h"
+#include "base/double_lanes.h"
 #include "intersect/lanes/packet.h"
 
 /* A root with a radius larger than this, in patch parameters, is seen so nearly edge-on that what the last step leaves,
@@ -17,6 +19,128 @@ struct answers {
   lanes normal[3]; /* of unit length and either sense */
   lane_mask done;  /* point and normal are sure, and the root has moved no farther than its radius */
 };
+
+/* ---- the last Newton step ---- */
+
+/* A root comes from a leaf's net, which is cut from the patch and rounded. Where the ray is steep, it is right to a few
+ * last places; where the ray grazes, rounding is magnified. A Newton step on the patch itself makes all roots right to
+ * the last places. Its residuals a(u,v), b(u,v) are computed in double-double, from control points relative to the ray's
+ * start, so that roots near the start keep their digits, too. */
+enum { LAST_STEPS_MAX = 3 };
+
+/* A step longer than this, in patch parameters, is followed by another one: the derivatives that give point and normal
+ * are off by about as much, relative to the second derivatives. */
+#define LAST_STEP_LONGEST 0x1p-44
+
+/* The same near the ray's start, where t is as short as 2^-44 of the patch (NEAREST_START): the step leaves its square
+ * times the second derivatives. */
+#define LAST_STEP_LONGEST_NEAR 0x1p-52
+
+/* Position and derivatives at (u,v), in the patch's frame; and the way there from the ray's start. */
+struct last_step_jet {
+  struct double_lanes s[3], way[3];
+  lanes du[3], dv[3];
+};
+
+/* The weights w_i, cubic Bernstein polynomials, and their derivatives. */
+LANES_INLINE void last_step_weights(lanes t, struct double_lanes w[4], lanes dw[4])
+{
+  const struct double_lanes s = double_lanes_sum(lanes_all(1), -t), tt = double_lanes_product(t, t);
+  const struct double_lanes ss = double_lanes_multiply(s, s), three_t = double_lanes_product(lanes_all(3), t);
+  w[0] = double_lanes_multiply(ss, s), w[1] = double_lanes_multiply(ss, three_t);
+  w[2] = double_lanes_multiply(s, double_lanes_scale(tt, lanes_all(3))), w[3] = double_lanes_scale(tt, t);
+  const lanes st = s.hi * t;
+  dw[0] = -3 * ss.hi, dw[1] = 3 * (ss.hi - 2 * st), dw[2] = 3 * (2 * st - tt.hi), dw[3] = 3 * tt.hi;
+}
+
+/* Evaluates control points relative to the ray's start, in double-double: the way is right to some 2^-100. */
+static void last_step_evaluate(const struct model_patch *patch, const struct double_lanes start[3], lanes u, lanes v,
+                               struct last_step_jet *out)
+{
+  struct double_lanes wu[4], wv[4];
+  lanes du[4], dv[4];
+  last_step_weights(u, wu, du);
+  last_step_weights(v, wv, dv);
+  for (int c = 0; c < 3; c++) {
+    struct double_lanes way = {{0}, {0}};
+    lanes by_u = {0}, by_v = {0};
+    for (int i = 0; i < 4; i++) {
+      struct double_lanes row = {{0}, {0}};
+      lanes row_dv = {0};
+      for (int j = 0; j < 4; j++) {
+        const struct double_lanes point = {lanes_all(patch->x[c][i][j]), lanes_all(patch->rest[c][i][j])};
+        const struct double_lanes from_start = double_lanes_subtract(point, start[c]);
+        row = double_lanes_add(row, double_lanes_multiply(wv[j], from_start));
+        row_dv = lanes_multiply_add(dv[j], from_start.hi, row_dv);
+      }
+      way = double_lanes_add(way, double_lanes_multiply(wu[i], row));
+      by_u = lanes_multiply_add(du[i], row.hi + row.lo, by_u), by_v = lanes_multiply_add(wu[i].hi, row_dv, by_v);
+    }
+    out->way[c] = way, out->s[c] = double_lanes_add(way, start[c]), out->du[c] = by_u, out->dv[c] = by_v;
+  }
+}
+
+/* Computes the answers on lanes whose best roots are on one patch, and whose rays share an axis; roots of `improves` get
+ * new u, v and t. A lane whose steps do not end within the patch's size keeps its own. T is right to 2^-80 of the patch's
+ * frame, near the ray's start to 2^-100, and then rounded once. */
+static struct answers last_step(const struct packet *p, const struct model_patch *patch, int axis, lane_mask improves)
+{
+  const struct best *best = &p->best;
+  const int k = axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  const lanes dk = p->direction[k], inverse = 1 / dk, ri = p->direction[i] * inverse, rj = p->direction[j] * inverse;
+  const double to_local = 1 / patch->scale; /* a power of two */
+  struct double_lanes start[3];
+  for (int c = 0; c < 3; c++) {
+    start[c] = double_lanes_sum(p->origin[c], lanes_all(-patch->center[c]));
+    start[c].hi *= to_local, start[c].lo *= to_local;
+  }
+  const lanes from_u = lanes_clamp(best->u, 0, 1), from_v = lanes_clamp(best->v, 0, 1);
+  lanes u = from_u, v = from_v, du, dv;
+  struct last_step_jet jet;
+  const struct double_lanes *way = jet.way;
+  const lane_mask near = packet_nearer(p, patch, NEAR_START, best->t);
+  const lanes longest = lanes_select(near, lanes_all(LAST_STEP_LONGEST_NEAR), lanes_all(LAST_STEP_LONGEST));
+  lane_mask moving = improves, again;
+  for (int n = 0;; n++) {
+    last_step_evaluate(patch, start, u, v, &jet);
+    lanes f[2], fu[2], fv[2];
+    for (int s = 0; s < 2; s++) {
+      const int at = s ? j : i;
+      const struct double_lanes x = double_lanes_scale(way[at], dk), y = double_lanes_scale(way[k], p->direction[at]);
+      const struct double_lanes difference = double_lanes_subtract(x, y);
+      const lanes ratio = s ? rj : ri;
+      f[s] = (difference.hi + difference.lo) * inverse;
+      fu[s] = jet.du[at] - ratio * jet.du[k], fv[s] = jet.dv[at] - ratio * jet.dv[k];
+    }
+    const lanes determinant = 1 / (fu[0] * fv[1] - fv[0] * fu[1]);
+    du = (fv[0] * f[1] - fv[1] * f[0]) * determinant, dv = (fu[1] * f[0] - fu[0] * f[1]) * determinant;
+    const lanes size = lanes_max(lanes_abs(du), lanes_abs(dv));
+    moving &= (lanes_abs(du) < 1) & (lanes_abs(dv) < 1);
+    du = lanes_select(moving, du, lanes_all(0)), dv = lanes_select(moving, dv, lanes_all(0));
+    again = moving & (size > longest);
+    if (n + 1 == LAST_STEPS_MAX || !lanes_any(again)) break;
+    /* A lane that is done stays where it is, so that its result does not depend on the others. */
+    u = lanes_select(again, u + du, u), v = lanes_select(again, v + dv, v);
+  }
+  const lanes off = way[k].lo + (jet.du[k] * du + jet.dv[k] * dv), depth = way[k].hi + off;
+  const lanes t = depth * inverse, left = off - lanes_product_error(t, dk, way[k].hi);
+  const lane_mask lost = improves & ~moving; /* the jet is elsewhere */
+  struct answers a;
+  a.t = lanes_select(moving, (t + left * inverse) * patch->scale, best->t);
+  a.u = lanes_clamp(lanes_select(lost, from_u, u + du), 0, 1);
+  a.v = lanes_clamp(lanes_select(lost, from_v, v + dv), 0, 1);
+  const lanes to_u = a.u - u, to_v = a.v - v, tangent = surface_tangent(jet.du, jet.dv);
+  lanes point[3], normal[3];
+  for (int c = 0; c < 3; c++) point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
+  a.point = surface_point(patch, point, tangent);
+  surface_cross(jet.du, jet.dv, normal);
+  a.done = surface_normal(normal, tangent, a.normal) & ~lost & ~(again & near) &
+           (lanes_abs(a.u - best->u) <= best->radius_u) & (lanes_abs(a.v - best->v) <= best->radius_v) &
+           packet_has_digits(p, patch, NEAREST_START, best->t);
+  return a;
+}
+
+/* ---- what the last resort decides ---- */
 
 /* Lanes whose answer is in doubt, whatever it is. */
 static unsigned packet_doubt(const struct packet *p) { return p->model->unproven ? ~0u : lanes_bits(p->best.doubt); }
@@ -93,6 +217,8 @@ unsigned finish_occluded(const struct packet *p)
   return hit;
 }
 
+/* ---- what is written ---- */
+
 /* A hit's numbers are eleven doubles in a row. */
 enum { HIT_STRIDE = sizeof(struct hit) / sizeof(double) };
 static_assert(HIT_STRIDE == 12 && offsetof(struct hit, t) == sizeof(double) &&
@@ -100,7 +226,7 @@ static_assert(HIT_STRIDE == 12 && offsetof(struct hit, t) == sizeof(double) &&
                 offsetof(struct hit, clearance) == 8 * sizeof(double),
               "written as three fours");
 
-/* Writes the hits of the lanes of `group`. Returns how many are not certain. */
+/* Writes the hits of the lanes of `group`. Returns those that are not certain. */
 LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
 {
   const struct best *best = &p->best;
@@ -125,14 +251,13 @@ LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const s
   for (unsigned bits = group; bits; bits &= bits - 1) {
     const unsigned l = (unsigned)__builtin_ctz(bits);
     const bool sure = !(doubt >> l & 1);
-    if (!(done_bits >> l & 1)) {
+    if (done_bits >> l & 1) {
+      row[l].patch = (uint32_t)best->patch[l], row[l].certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
+      if (row != out) out[l] = row[l];
+    } else {
       lane_finish(p, l, sure, &out[l]);
-      grazing += out[l].certainty == CERTAINTY_GRAZING;
-      continue;
     }
-    row[l].patch = (uint32_t)best->patch[l], row[l].certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
-    if (row != out) out[l] = row[l];
-    grazing += !sure;
+    grazing |= (unsigned)(out[l].certainty == CERTAINTY_GRAZING) << l;
   }
   return grazing;
 }
@@ -148,25 +273,6 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   return write_hits(p, group, &a, out);
 }
 
-/* Finishes the lanes of `group`. Their best roots are on one patch, and their rays share an axis. */
-static unsigned finish_group(const struct packet *p, unsigned group, int axis, const struct model_patch *patch,
-                             struct hit out[])
-{
-  const struct best *best = &p->best;
-  struct last_step step;
-  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
-  step.near = packet_nearer(p, patch, NEAR_START, best->t);
-  step.improves = lanes_mask(group) & best->certain;
-  step.u = lanes_clamp(best->u, 0, 1), step.v = lanes_clamp(best->v, 0, 1), step.t = best->t;
-  last_step_take(&step);
-  struct answers a = {.u = step.u, .v = step.v, .t = step.t, .done = step.done};
-  a.done &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
-            packet_has_digits(p, patch, NEAREST_START, best->t);
-  a.point = surface_point(patch, step.point, step.tangent);
-  for (int c = 0; c < 3; c++) a.normal[c] = step.normal[c];
-  return write_hits(p, group, &a, out);
-}
-
 /* Has the last resort decide what is open. Returns the lanes, as bits, whose answers are written. */
 static unsigned decide_open(struct packet *p, struct hit out[])
 {
@@ -178,7 +284,7 @@ static unsigned decide_open(struct packet *p, struct hit out[])
   return written;
 }
 
-/* Writes misses for these rays, grazing on the lanes of `doubt`. Returns how many of them are grazing. */
+/* Writes misses for these rays, grazing on the lanes of `doubt`. Returns those that are grazing. */
 static unsigned write_misses(struct hit out[], unsigned misses, unsigned doubt)
 {
   if (misses == ALL_LANES && !doubt) { /* the same without a loop */
@@ -189,7 +295,7 @@ static unsigned write_misses(struct hit out[], unsigned misses, unsigned doubt)
     const int l = __builtin_ctz(bits);
     out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
   }
-  return (unsigned)__builtin_popcount(misses & doubt);
+  return misses & doubt;
 }
 
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
@@ -197,11 +303,11 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
   const unsigned hits = lanes_bits(p->best.patch != NO_PATCH);
   unsigned left = ((1u << p->count) - 1) & ~written, grazing = 0;
   for (unsigned bits = written; bits; bits &= bits - 1)
-    grazing += out[__builtin_ctz(bits)].certainty == CERTAINTY_GRAZING;
-  grazing += write_misses(out, left & ~hits, packet_doubt(p));
+    if (out[__builtin_ctz(bits)].certainty == CERTAINTY_GRAZING) grazing |= bits & -bits;
+  grazing |= write_misses(out, left & ~hits, packet_doubt(p));
   left &= hits;
   const unsigned final = left & lanes_bits(p->best.final);
-  if (final) grazing += finish_final(p, final, out);
+  if (final) grazing |= finish_final(p, final, out);
   left &= ~final;
   while (left) {
     const unsigned first = (unsigned)__builtin_ctz(left);
@@ -209,7 +315,9 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
     const int64_t patch = p->best.patch[first];
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
     struct patch_room room;
-    grazing += finish_group(p, group, axis, model_patch_at(p->model, (uint32_t)patch, &room), out);
+    const struct answers answers = last_step(p, model_patch_at(p->model, (uint32_t)patch, &room), axis,
+                                             lanes_mask(group) & p->best.certain);
+    grazing |= write_hits(p, group, &answers, out);
     left &= ~group;
   }
   return grazing;
@@ -219,12 +327,4 @@ unsigned finish_hits(struct packet *p, struct hit out[])
 {
   if (!p->oriented) return write_misses(out, (1u << p->count) - 1, p->model->unproven ? ~0u : 0);
   return finish_best(p, decide_open(p, out), out);
-}
-
-unsigned finish_unsettled(const struct packet *p, const struct hit hits[])
-{
-  unsigned unsettled = 0;
-  for (size_t l = 0; l < p->count; l++)
-    if (hits[l].certainty != CERTAINTY_CERTAIN) unsettled |= 1u << l;
-  return unsettled;
 }

@@ -1,10 +1,10 @@
-/* All roots of the rays of a packet. See gather.h.
+/* All roots of the rays of a packet, where nearest.c would keep only the nearest of each, and their answers.
  *
  * Compiled once per instruction set and without contraction. A root gets its answer where it is found, just as the
  * nearest one does, together with those that other lanes find there. The last resort puts them in order, and adds what
  * the lanes left open (exact_all).
  */
-#include "intersect/lanes/gather.h"
+#include "intersect/lanes/packet.h"
 
 #include <math.h>
 

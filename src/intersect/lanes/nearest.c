@@ -1,15 +1,12 @@
-/* How roots are offered, taken, refused, or left open. See nearest.h.
+/* The nearest root of every lane, or all roots (gather.c): the one place where roots are taken or refused.
  *
- * Compiled once per instruction set.
+ * A root is taken if double precision leaves no question. If it may lie on a border of its patch, at an end of the ray,
+ * or where another root is, its leaf is left to the last resort. Compiled once per instruction set.
  */
-#include "intersect/lanes/nearest.h"
-
 #include <math.h>
 
 #include "base/real.h"
-#include "intersect/lanes/gather.h"
-#include "intersect/prepare/leaf.h"
-#include "intersect/prepare/patch.h"
+#include "intersect/lanes/candidate.h"
 
 void packet_exhaust(struct packet *p, unsigned exhausted)
 {
@@ -62,6 +59,32 @@ static void postpone(struct packet *p, uint32_t patch, lanes near, lane_mask ope
   }
 }
 
+/* t where x_k = w. */
+LANES_INLINE lanes depth_to_t(const struct line *line, lanes w)
+{
+  return ((w + line->start[1]) + line->start[0]) * line->to_t;
+}
+
+/* In y = w to_t/|to_t|, which grows along the ray, a slab begins at -(a sign + its half)/|b|, the sign being b's in y.
+ * Errors are those of stage_slab. The quotient's three roundings are 6u of |y| <= FRAME_END, for which the error of x_k
+ * has room. The error of t is that of a root there. */
+static lanes slab_begin(const struct packet *p, const struct candidate *it)
+{
+  const struct line *line = it->line;
+  lanes begin = lanes_all(-FRAME_END);
+  for (int q = 0; q < 3; q++) {
+    lanes a, b;
+    slab_values(line, it->axis, &it->leaf->slab[q], &a, &b);
+    const lanes along = lanes_select(line->to_t < 0, -b, b), out = it->leaf->slab[q].half + 10 * line->error;
+    const lanes at = (-lanes_select(along < 0, -a, a) - out) / lanes_abs(b);
+    begin = lanes_select((at > begin) & (lanes_abs(b) > 0), at, begin);
+  }
+  const lanes w = lanes_min(begin, lanes_all(FRAME_END)), size = lanes_abs(line->to_t);
+  const lanes at = depth_to_t(line, lanes_select(line->to_t < 0, -w, w));
+  return lanes_max(at - (size * line->error + 8 * UNIT_ROUNDOFF * (lanes_abs(at) + FRAME_END * size) + p->t_error),
+                   p->t_min);
+}
+
 void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open)
 {
   postpone(p, packet_patch(p, it->leaf), slab_begin(p, it), open);
@@ -88,10 +111,10 @@ static lane_mask on_border(const struct candidate *it, const struct newton_root 
   return border;
 }
 
-/* t where x_k = w. */
-LANES_INLINE lanes depth_to_t(const struct line *line, lanes w)
+/* How far a point of the surface moves at most within the radii of a root. */
+LANES_INLINE lanes root_reach(const struct candidate *it, const struct newton_root *r)
 {
-  return ((w + line->start[1]) + line->start[0]) * line->to_t;
+  return it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v;
 }
 
 /* Bounds the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and of t. */
@@ -159,6 +182,22 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);
   return taken;
+}
+
+LANES_INLINE void weights_at(lanes t, lanes w[4])
+{
+  const lanes s = 1 - t, ss = s * s, tt = t * t, st = s * t;
+  w[0] = ss * s, w[1] = 3 * (ss * t), w[2] = 3 * (st * t), w[3] = tt * t;
+}
+
+static lanes plane_depth(const struct candidate *it, lanes u, lanes v)
+{
+  lanes wu[4], wv[4], w = {0};
+  weights_at(u, wu), weights_at(v, wv);
+  const double *x = it->leaf->x[it->axis];
+  for (int i = 0; i < 4; i++)
+    w += wu[i] * (x[4 * i] * wv[0] + x[4 * i + 1] * wv[1] + x[4 * i + 2] * wv[2] + x[4 * i + 3] * wv[3]);
+  return w;
 }
 
 void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits)

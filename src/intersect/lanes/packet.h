@@ -40,7 +40,7 @@ struct best {
   lanes t;                        /* infinite: none */
   lane_mask patch, leaf;          /* where it is, NO_PATCH: nowhere; they order roots of equal t */
   lane_mask certain;              /* proven */
-  lane_mask final; /* right to the last places, and the members below are set; others get them from last_step.h */
+  lane_mask final; /* right to the last places, and the members below are set; others get them from last_step */
   struct surface_point point;
   lanes normal[3]; /* of any length and sense */
   lanes tangent;   /* bound on the coordinates of the derivatives whose product is the normal */
@@ -186,6 +186,39 @@ static inline struct exact_root packet_root(const struct packet *p, unsigned lan
                              .t_error = p->t_far[lane] - best->t[lane]};
 }
 
+/* Lanes where a root at t comes before the best: it is nearer, or at the same t to the last bit and of a lower patch or
+ * leaf. This orders all roots, so the answer does not depend on the order in which they come. */
+LANES_INLINE lane_mask best_after(const struct best *best, lanes t, lane_mask patch, lane_mask leaf)
+{
+  const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
+  return (t < best->t) | ((t == best->t) & first);
+}
+
+/* Lanes of `where` on which a and b are two patches of the scene with one surface: the ray meets both at one t. */
+LANES_INLINE lane_mask one_surface(const struct model *model, lane_mask a, lane_mask b, lane_mask where)
+{
+  lane_mask one = {0};
+  if (!model->surface) return one;
+  for (unsigned bits = lanes_bits(where & (a != b) & (a != NO_PATCH) & (b != NO_PATCH)); bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    const uint32_t surface = model->surface[a[l]];
+    if (surface != 0 && surface == model->surface[b[l]]) one |= lanes_mask(bits & -bits);
+  }
+  return one;
+}
+
+/* Makes a certain root the best on the lanes of `taken`. */
+LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t,
+                            lane_mask patch, lane_mask leaf)
+{
+  best->u = lanes_select(taken, at[0], best->u), best->v = lanes_select(taken, at[1], best->v);
+  best->radius_u = lanes_select(taken, radius[0], best->radius_u);
+  best->radius_v = lanes_select(taken, radius[1], best->radius_v);
+  best->t = lanes_select(taken, t, best->t);
+  best->patch = (taken & patch) | (~taken & best->patch), best->leaf = (taken & leaf) | (~taken & best->leaf);
+  best->certain |= taken, best->final &= ~taken;
+}
+
 /* candidate.c: tries the leaf, with this patch and number, on the lanes of `active`, and keeps roots that come before
  * the best. */
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
@@ -193,6 +226,9 @@ void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *
 
 /* nearest.c: the rays on these lanes, as bits, go no further, because their budgets are exhausted. */
 void packet_exhaust(struct packet *p, unsigned exhausted);
+
+/* nearest.c: postpones the copy's patch that the best root of these lanes is in. */
+void packet_postpone_best(struct packet *p, lane_mask open);
 
 /* copy.c: sets up *inner, the rays of `outer` on the lanes of `active` in the coordinates of the copy's object. */
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner);
@@ -202,11 +238,8 @@ void packet_leave(struct packet *inner);
 
 /* finish.c: writes the answers of the packet's rays. The last resort decides some; the others come from the best roots,
  * improved by a Newton step on the patch itself unless they are right to the last places already. t is in units of the
- * scaled direction. Returns how many are not certain. */
+ * scaled direction. Returns, as bits, the lanes whose answers are not certain. */
 unsigned finish_hits(struct packet *p, struct hit out[]);
-
-/* finish.c: the lanes, as bits, whose answers are not certain and might differ beside other rays. */
-unsigned finish_unsettled(const struct packet *p, const struct hit hits[]);
 
 /* finish.c: finish_hits for lanes that have nothing open; the lanes of `written` have their answers already. */
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[]);
@@ -214,5 +247,19 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
 /* finish.c: as bits, the rays that hit anything: the lanes have found a hit, or something left open is a hit or may
  * be. */
 unsigned finish_occluded(const struct packet *p);
+
+/* gather.c: has the packet, which has just been started, gather there, beginning with nothing. */
+void gather_start(struct packet *p, struct gather *gather);
+
+/* gather.c: adds the packet's best roots, which were just taken on the lanes of `taken`, with their answers. Then there is no
+ * best again. */
+void gather_best(struct packet *p, lane_mask taken);
+
+/* gather.c: leaves a patch of the scene to the last resort on that lane. */
+void gather_postpone(struct gather *gather, uint32_t patch, unsigned lane);
+
+/* gather.c: writes the lists of the packet's rays, except for `hits`: these are added to tracer->hits, one list after the other.
+ * t is multiplied by 2^-exponents[lane] if `exponents` is not NULL. Returns whether there was memory. */
+bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]);
 
 #endif

@@ -9,9 +9,6 @@
  * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  */
 #include "intersect/lanes/bundle.h"
-#include "intersect/lanes/gather.h"
-#include "intersect/lanes/ray_way.h"
-#include "intersect/lanes/waiting.h"
 #include "intersect/prepare/leaf.h"
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
@@ -312,8 +309,9 @@ LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const 
     const unsigned grazing = finish_hits(packet, hits);
     for (size_t l = 0; l < packet->count && ready[h].copied; l++)
       if (hits[l].patch != HIT_NONE) hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
-    if (grazing) unsettled |= finish_unsettled(packet, hits) << h * LANES;
-    tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
+    const size_t count_grazing = (size_t)__builtin_popcount(grazing);
+    unsettled |= grazing << h * LANES;
+    tracer->counts.grazing += count_grazing, tracer->counts.certain += packet->count - count_grazing;
     tracer->counts.rays[0] += packet->count;
   }
   return unsettled;
