@@ -8,8 +8,6 @@
 #include "base/memory.h"
 #include "base/real.h"
 #include "geometry/vector.h"
-#include "intersect/leave.h"
-#include "intersect/point.h"
 #include "intersect/tracer.h"
 
 struct intersector {
@@ -179,71 +177,41 @@ void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
 void tracer_stop_at(struct tracer *tracer, const atomic_int *stop) { tracer->stop = stop; }
 
-/* Does not count the work on rays that are traced again, only their new answers. */
-static void count_again(struct tracer *tracer, const struct intersect_counts *before, uint64_t certain_now)
+/* The work on rays that are traced again alone is not counted, only their new answers. */
+static void trace(struct tracer *tracer, enum wanted wanted, size_t count, const struct ray rays[], void *answers)
 {
-  tracer->counts = *before;
-  tracer->counts.certain += certain_now, tracer->counts.grazing -= certain_now;
-}
-
-/* Traces these rays, given as bits, one by one (tracer_repeats). */
-static void trace_alone(struct tracer *tracer, unsigned unsettled, const struct ray rays[], struct hit hits[])
-{
-  const struct intersect_counts counts = tracer->counts;
+  unsigned again = kernel_for(tracer, count, rays)->trace(tracer, wanted, count, rays, answers);
+  if (!again) return;
+  const struct intersect_counts before = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
-  uint64_t certain_now = 0;
-  for (; unsettled && !tracer_stopped(tracer); unsettled &= unsettled - 1) {
-    const int k = __builtin_ctz(unsettled);
-    kernel->closest(tracer, 1, &rays[k], &hits[k]);
-    certain_now += hits[k].certainty == CERTAINTY_CERTAIN;
+  for (; again && !tracer_stopped(tracer); again &= again - 1) {
+    const int k = __builtin_ctz(again);
+    (void)kernel->trace(tracer, wanted, 1, &rays[k], wanted_at(wanted, answers, (size_t)k));
   }
-  count_again(tracer, &counts, certain_now);
+  const uint64_t certain_now = tracer->counts.certain - before.certain;
+  tracer->counts = before;
+  tracer->counts.certain += certain_now, tracer->counts.grazing -= certain_now;
 }
 
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
-  const unsigned unsettled = kernel_for(tracer, count, rays)->closest(tracer, count, rays, out_hits);
-  if (unsettled && tracer_repeats(tracer, count)) trace_alone(tracer, unsettled, rays, out_hits);
+  trace(tracer, WANTED_CLOSEST, count, rays, out_hits);
 }
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
-  if (!kernel_for(tracer, count, rays)->occluded(tracer, count, rays, out_occluded) || count == 1) return;
-  const struct intersect_counts counts = tracer->counts;
-  const struct kernel *kernel = kernel_for(tracer, 1, rays);
-  for (size_t k = 0; k < count && !tracer_stopped(tracer); k++)
-    if (out_occluded[k]) (void)kernel->occluded(tracer, 1, &rays[k], &out_occluded[k]);
-  tracer->counts = counts;
-}
-
-/* The same for all hits; list k's hits begin at first[k] of the tracer's. Returns whether there was enough memory. */
-static bool trace_all_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list lists[],
-                            size_t first[])
-{
-  const struct intersect_counts counts = tracer->counts;
-  const struct kernel *kernel = kernel_for(tracer, 1, rays);
-  uint64_t certain_now = 0;
-  bool done = true;
-  for (size_t k = 0; k < count && done; k++) {
-    if (lists[k].certainty == CERTAINTY_CERTAIN) continue;
-    first[k] = tracer->hits.count;
-    done = kernel->all(tracer, 1, &rays[k], &lists[k]);
-    certain_now += lists[k].certainty == CERTAINTY_CERTAIN;
-  }
-  count_again(tracer, &counts, certain_now);
-  return done;
+  trace(tracer, WANTED_ANY, count, rays, out_occluded);
 }
 
 enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
 {
-  const uint64_t grazing = tracer->counts.grazing;
-  size_t first[PACKET_SIZE], hits = 0;
-  tracer->hits.count = 0;
-  if (!kernel_for(tracer, count, rays)->all(tracer, count, rays, out)) return STATUS_LIMIT;
-  for (size_t k = 0; k < count; k++) first[k] = hits, hits += out[k].count;
-  const bool again = tracer->counts.grazing > grazing && tracer_repeats(tracer, count);
-  if (again && !trace_all_alone(tracer, count, rays, out, first)) return STATUS_LIMIT;
-  for (size_t k = 0; k < count; k++) out[k].hits = (const struct hit *)tracer->hits.at + first[k];
+  struct list_place lists[PACKET_SIZE];
+  tracer->hits.count = 0, tracer->failed = false;
+  trace(tracer, WANTED_ALL, count, rays, lists);
+  if (tracer->failed) return STATUS_LIMIT;
+  for (size_t k = 0; k < count; k++)
+    out[k] = (struct hit_list){lists[k].certainty, lists[k].count,
+                               (const struct hit *)tracer->hits.at + lists[k].first};
   return STATUS_OK;
 }
 
@@ -267,28 +235,17 @@ static bool start_sees(struct tracer *tracer, const struct ray *ray, const doubl
   return !occluded;
 }
 
-static leave_some *leave_of(const struct tracer *tracer)
-{
-#if defined(PSCN_HAS_AVX512)
-  if (tracer->kernel == &kernel_avx512) return leave_some_avx512;
-#endif
-#if defined(PSCN_HAS_AVX2)
-  if (tracer->kernel == &kernel_avx2) return leave_some_avx2;
-#endif
-  return (void)tracer, leave_some_baseline;
-}
-
 /* Where another surface is before a start, one farther back is taken. */
 static unsigned leave(struct tracer *tracer, size_t count, const struct ray rays[], const struct hit hits[],
                       struct leaving to, struct ray out[])
 {
-  const struct left left = leave_of(tracer)(count, rays, hits, &to, out);
+  const struct left left = tracer->kernel->leave(count, rays, hits, &to, out);
   for (unsigned bits = left.beside; bits; bits &= bits - 1) {
     const int k = __builtin_ctz(bits);
     to.longer = 1;
     for (int n = 0; n < LEAVE_TRIES && !start_sees(tracer, &rays[k], out[k].origin); n++) {
       to.longer *= LEAVE_LONGER;
-      (void)leave_of(tracer)(1, &rays[k], &hits[k], &to, &out[k]);
+      (void)tracer->kernel->leave(1, &rays[k], &hits[k], &to, &out[k]);
     }
   }
   return left.facing;

@@ -138,18 +138,24 @@ enum status tracer_all(struct tracer *tracer, size_t count, const struct ray ray
  * the ray's start, even where surfaces meet at an acute angle; a point beside the hit need not be.
  *
  * Proven for a certain hit. The exact point is before the exact hit, at a t that is one of doubles. Each coordinate of
- * *out_origin is that of the point rounded, and one or two doubles nearer to the ray's start: off it by e <= 2^-51 of itself,
- * while the clearance is at least 128 e. So *out_origin is in the same cell unless another surface comes within sqrt(3)
- * e of that point, which no plane across an axis does that the ray meets later, nor any other if the ray meets it at or
- * behind the hit under an angle whose sine is 1/64 of the hit's or more. Next to a border of the patch, where such a
- * surface may be expected, the view from *out_origin back to the ray's start is traced, and a start farther back is
- * taken until nothing is in it. That proves that the cell is the same, but for what is within e of the ray's start.
+ * *out_origin is that of the point rounded, and one or two doubles nearer to the ray's start: off it by e <= 2^-51 of
+ * itself, while the clearance is at least 128 e. So *out_origin is in the same cell unless another surface comes within
+ * sqrt(3) e of that point, which no plane across an axis does that the ray meets later, nor any other if the ray meets
+ * it at or behind the hit under an angle whose sine is 1/64 of the hit's or more. Next to a border of the patch, where
+ * such a surface may be expected, the view from *out_origin back to the ray's start is traced, and a start farther back
+ * is taken until nothing is in it. That proves that the cell is the same, but for what is within e of the ray's start.
  *
- * Not proven: where surfaces of other patches pass through this one, or nearly touch it, at an angle to the ray as small
- * as said; in rooms no wider than the clearance; behind the hit, if `direction` points to the other side; for grazing
- * hits, for which the start is taken from `point`, because a solver's bare root may be off the ray. */
+ * Not proven: where surfaces of other patches pass through this one, or nearly touch it, at an angle to the ray as
+ * small as said; in rooms no wider than the clearance; behind the hit, if `direction` points to the other side; for
+ * grazing hits, for which the start is taken from `point`, because a solver's bare root may be off the ray. */
 void tracer_leave(struct tracer *tracer, const struct ray *ray, const struct hit *hit, const double direction[3],
                   double out_origin[3]);
+
+/* Rays that leave `count` <= PACKET_SIZE hits of `rays` for a point, such as shadow rays, from t = 0 to `end`; the
+ * point is at t = 1. If a ray would start at the very point, it goes the way from the hit. Returns as bits those with a
+ * hit on whose normal's side the point is; the others of `out` mean nothing. */
+unsigned tracer_leave_for(struct tracer *tracer, size_t count, const struct ray rays[], const struct hit hits[],
+                          const double point[3], double end, struct ray out[]);
 
 const struct intersect_counts *tracer_counts(const struct tracer *tracer);
 

@@ -12,16 +12,43 @@
 #include "intersect/local_ray.h"
 #include "intersect/model.h"
 
-/* The entry points of one instruction set: closest, occluded and all of lanes/walk.c, which tracer_closest,
- * tracer_occluded and tracer_all call (intersect.c). */
+/* What is asked of rays. Of each, the answer is a struct hit, a bool, or a struct list_place. */
+enum wanted { WANTED_CLOSEST, WANTED_ANY, WANTED_ALL };
+
+/* All hits of a ray: hits[first] to hits[first + count - 1] of the tracer's. */
+struct list_place {
+  enum certainty certainty;
+  size_t first, count;
+};
+
+/* The place of answer k. */
+static inline void *wanted_at(enum wanted wanted, void *answers, size_t k)
+{
+  static const size_t sizes[] = {sizeof(struct hit), sizeof(bool), sizeof(struct list_place)};
+  return (char *)answers + k * sizes[wanted];
+}
+
+/* Where rays that leave hits go: to a point or along a direction, for t up to `end`. They start `longer` times as far
+ * back as the hit's clearance asks. */
+struct leaving {
+  const double *to;
+  bool is_point;
+  double longer, end;
+};
+
+/* As bits, the hits on whose normals' side they go, and those before which another surface may lie: beside a border. */
+struct left {
+  unsigned facing, beside;
+};
+
+/* The entry points of one instruction set: lanes/walk.c and lanes/leave.c. */
 struct kernel {
   const char *name;
-  /* returns, as bits, the rays whose answers are not certain and might differ in another packet */
-  unsigned (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
-  /* returns whether some rays are to be traced again alone */
-  bool (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
-  /* returns whether there was enough memory */
-  bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
+  /* returns, as bits, the rays that are to be traced again alone */
+  unsigned (*trace)(struct tracer *tracer, enum wanted wanted, size_t count, const struct ray rays[], void *answers);
+  /* makes rays that leave hits: tracer_leave says where they start, and why there */
+  struct left (*leave)(size_t count, const struct ray rays[], const struct hit hits[], const struct leaving *to,
+                       struct ray out[]);
 };
 
 enum { KERNELS_MAX = 3 };
@@ -54,7 +81,6 @@ struct gather {
     struct exact_list found; /* those of one lane, `taken` their places in `hits`; then what exact_all makes of them */
     struct growing regions;  /* struct exact_region: what it left open */
   } lane[LANES_MAX];
-  bool failed; /* memory was short */
 };
 
 /* The budget of a ray, in units of one box of the hierarchy tested, some 25 ns. All work is charged to it, by the
@@ -67,8 +93,8 @@ enum { RAY_BUDGET = 1 << 18 };
 enum { BUDGET_IN_COMPANY = 3 };
 
 /* Making a leaf that is not kept; being tried on a leaf, once the slab test in doubles passes; the planes' polynomials;
- * a box of a leaf's parameters; the resultant and one of its roots; a box that the last resort examines. Sweeps over all
- * roots of r cost a unit for so many products of roots. */
+ * a box of a leaf's parameters; the resultant and one of its roots; a box that the last resort examines. Sweeps over
+ * all roots of r cost a unit for so many products of roots. */
 enum { COST_MADE = 32, COST_TRIED = 16, COST_PLANES = 24, COST_BOX = 4, COST_RESULTANT = 64, COST_EXACT = 32 };
 enum { PRODUCTS_A_UNIT = 8 };
 
@@ -81,6 +107,7 @@ struct tracer {
   struct made_leaf *made;            /* 2^MADE_BITS; NULL if leaves are kept, or made anew for each request */
   struct gather gather[PACKETS_MAX]; /* of packets side by side */
   struct growing hits;               /* struct hit: all lists of the last call of tracer_all */
+  bool failed;                       /* memory was short for that call */
   int budget;                        /* RAY_BUDGET; less in tests */
   struct explainer *explainer;       /* explain.c; NULL for none */
   const atomic_int *stop;            /* tracer_stop_at; or NULL */
@@ -94,8 +121,8 @@ static inline bool tracer_stopped(const struct tracer *tracer)
 /* intersect.c: a tracer in the caller's memory, without warm starts, whatever the scene says. */
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
 
-/* Whether, of `count` rays together, those are traced again alone whose answers are not certain or would take much work.
- * What the last resort finds out about a ray, and where its budget ends, depends on the leaves that came to it;
+/* Whether, of `count` rays together, those are traced again alone whose answers are not certain or would take much
+ * work. What the last resort finds out about a ray, and where its budget ends, depends on the leaves that came to it;
  * these depend on how soon the rays beside it made the walk find something nearer. Not with warm starts, which go from
  * ray to ray in any case, nor if nothing is proven, when all would be traced twice. */
 static inline bool tracer_repeats(const struct tracer *tracer, size_t count)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "geometry/vector.h"
-#include "intersect/leave.h"
+#include "intersect/intersect.h"
 #include "scene/scene.h"
 
 /* The end of shadow rays, as a fraction of the way to the light. Where a ray meets a surface under an angle of sine s

@@ -227,7 +227,9 @@ TEST(test_shadow_rays)
   for (int k = 0; k < PACKETS; k++) rays[k] = (struct ray){.direction = {0, 0, -1}, .t_max = 1};
   struct arena *arena = arena_create();
   struct ray_list shadows;
-  struct tracer tracer = {.model = NULL}; /* for hits that are not certain nothing is traced */
+  const struct kernel *kernels[KERNELS_MAX];
+  (void)kernels_here(kernels);
+  struct tracer tracer = {.kernel = kernels[0]}; /* for hits that are not certain nothing is traced */
   assert_int_equal(rays_of_shadows(&scene, &tracer, &camera, hits, arena, &shadows), STATUS_OK);
   assert_int_equal(shadows.count, LIGHTS * HITS);
   assert_int_equal(shadows.packet_count, LIGHTS * HITS);

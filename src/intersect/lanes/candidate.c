@@ -94,9 +94,9 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
  * proves no root, and the last resort examines most of the patch in any case. */
 #define BLIND 0x1p-5
 
-/* The lanes of `active` on which the leaf may have a hit that counts. None if its patch lies exactly on an earlier one; not
- * those that have met an earlier patch of its surface; and if that is a plane, not those whose ray goes away from it, or
- * starts in it and leaves it. */
+/* The lanes of `active` on which the leaf may have a hit that counts. None if its patch lies exactly on an earlier one;
+ * not those that have met an earlier patch of its surface; and if that is a plane, not those whose ray goes away from
+ * it, or starts in it and leaves it. */
 LANES_INLINE lane_mask before_on_surface(const struct packet *p, const struct leaf *leaf, lane_mask active)
 {
   const struct packet *scene = packet_scene(p);

@@ -3,8 +3,8 @@
  * Internal to src/intersect/lanes. A candidate goes through a sequence of stages; candidate.c shows their order. All
  * stages have one shape: they take the lanes that are still open, may offer roots (nearest.c), and return the lanes
  * that are open after them. A stage closes a lane once the leaf is proven to be missed, or all of its roots have been
- * offered. The last resort (exact.h) decides what is open at the end. Parameters (u,v) are the leaf's own, [0,1] x [0,1]
- * over the leaf.
+ * offered. The last resort (exact.h) decides what is open at the end. Parameters (u,v) are the leaf's own, [0,1] x
+ * [0,1] over the leaf.
  */
 #ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
@@ -88,8 +88,8 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
 /* cover.c: closes lanes where pieces that cover the leaf show that it has no root, by the default method also none
- * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces with
- * both. */
+ * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces
+ * with both. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: sets the form and, with polish, Bezout's resultant r of a and b in Bernstein form. Closes lanes where

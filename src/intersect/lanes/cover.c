@@ -204,8 +204,9 @@ LANES_INLINE bool piece_root(const struct piece_ray *ray, const struct piece *pi
  * from the border. The numerator is 0 there, so its coefficients of row n are those of the quotient in row n - 1, times
  * n/3, and the quotient is raised to degree 3 again. Nothing else knows of poles.
  *
- * c0 and c1 are off by e, so their quotient by 3 e/|c0| where |c0| >= 4 e (POLE_MET); and the numerator by 2 e for f0 and f1, that
- * times f0, and roundings. If |c0| is less, the ray meets the pole, as far as doubles show, and the pair stays. */
+ * c0 and c1 are off by e, so their quotient by 3 e/|c0| where |c0| >= 4 e (POLE_MET); and the numerator by 2 e for f0
+ * and f1, that times f0, and roundings. If |c0| is less, the ray meets the pole, as far as doubles show, and the pair
+ * stays. */
 LANES_INLINE void piece_divide(struct piece_ray *ray, int border, struct piece *piece)
 {
   const int at = edge_at(border, 0);
@@ -232,8 +233,8 @@ LANES_INLINE void piece_divide(struct piece_ray *ray, int border, struct piece *
 /* The most pieces halved on a leaf. A choice of speed, as COVER_HALVINGS. */
 enum { COVER_SPLITS = 160 };
 
-/* The most halvings of the leaf to show that the ray passes it by, for a method that seeks its roots afterwards. A choice
- * of speed. */
+/* The most halvings of the leaf to show that the ray passes it by, for a method that seeks its roots afterwards. A
+ * choice of speed. */
 enum { MISS_HALVINGS = 3 };
 
 /* Whether all pieces are done with. stack[0], the leaf, is set. Otherwise the middle of one that is not goes to left.

@@ -2,8 +2,7 @@
  *
  * Compiled once per instruction set and without contraction.
  */
-#include <assert.h>
-#include <stddef.h>
+#include <math.h>
 
 #include "base/double_lanes.h"
 #include "intersect/lanes/packet.h"
@@ -24,8 +23,8 @@ struct answers {
 
 /* A root comes from a leaf's net, which is cut from the patch and rounded. Where the ray is steep, it is right to a few
  * last places; where the ray grazes, rounding is magnified. A Newton step on the patch itself makes all roots right to
- * the last places. Its residuals a(u,v), b(u,v) are computed in double-double, from control points relative to the ray's
- * start, so that roots near the start keep their digits, too. */
+ * the last places. Its residuals a(u,v), b(u,v) are computed in double-double, from control points relative to the
+ * ray's start, so that roots near the start keep their digits, too. */
 enum { LAST_STEPS_MAX = 3 };
 
 /* A step longer than this, in patch parameters, is followed by another one: the derivatives that give point and normal
@@ -80,9 +79,9 @@ static void last_step_evaluate(const struct model_patch *patch, const struct dou
   }
 }
 
-/* Computes the answers on lanes whose best roots are on one patch, and whose rays share an axis; roots of `improves` get
- * new u, v and t. A lane whose steps do not end within the patch's size keeps its own. T is right to 2^-80 of the patch's
- * frame, near the ray's start to 2^-100, and then rounded once. */
+/* Computes the answers on lanes whose best roots are on one patch, and whose rays share an axis; roots of `improves`
+ * get new u, v and t. A lane whose steps do not end within the patch's size keeps its own. T is right to 2^-80 of the
+ * patch's frame, near the ray's start to 2^-100, and then rounded once. */
 static struct answers last_step(const struct packet *p, const struct model_patch *patch, int axis, lane_mask improves)
 {
   const struct best *best = &p->best;
@@ -203,10 +202,10 @@ static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct
 
 /* A ray whose budget is exhausted, or that left more open than there is room for, may hit what was not examined. Every
  * such ray counts as hit, whatever else it meets, so that its answer does not depend on its neighbours. */
-unsigned finish_occluded(const struct packet *p)
+unsigned finish_occluded(const struct packet *p, bool out[])
 {
-  if (!p->oriented) return 0;
-  unsigned hit = lanes_bits(p->best.patch != NO_PATCH) | packet_cut_off(p);
+  unsigned hit = 0;
+  if (p->oriented) hit = lanes_bits(p->best.patch != NO_PATCH) | packet_cut_off(p);
   for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     const struct exact_case wanted = lane_case(p, lane);
@@ -214,17 +213,11 @@ unsigned finish_occluded(const struct packet *p)
     if (exact_occluded(&wanted)) hit |= 1u << lane;
     if (*wanted.work - before >= wanted.limit) p->postponed->exhausted |= 1u << lane;
   }
-  return hit;
+  for (size_t l = 0; l < p->count; l++) out[l] = hit >> l & 1;
+  return hit & packet_cut_off(p);
 }
 
 /* ---- what is written ---- */
-
-/* A hit's numbers are eleven doubles in a row. */
-enum { HIT_STRIDE = sizeof(struct hit) / sizeof(double) };
-static_assert(HIT_STRIDE == 12 && offsetof(struct hit, t) == sizeof(double) &&
-                offsetof(struct hit, point) == 4 * sizeof(double) &&
-                offsetof(struct hit, clearance) == 8 * sizeof(double),
-              "written as three fours");
 
 /* Writes the hits of the lanes of `group`. Returns those that are not certain. */
 LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
@@ -323,8 +316,11 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
   return grazing;
 }
 
-unsigned finish_hits(struct packet *p, struct hit out[])
+unsigned finish_hits(struct packet *p, const int *exponents, struct hit out[])
 {
   if (!p->oriented) return write_misses(out, (1u << p->count) - 1, p->model->unproven ? ~0u : 0);
-  return finish_best(p, decide_open(p, out), out);
+  const unsigned grazing = finish_best(p, decide_open(p, out), out);
+  for (size_t l = 0; l < p->count && exponents; l++)
+    if (out[l].patch != HIT_NONE) out[l].t = ldexp(out[l].t, -exponents[l]);
+  return grazing;
 }

@@ -12,7 +12,7 @@ void gather_start(struct packet *p, struct gather *gather)
 {
   if (!p->oriented) packet_orient(p);
   p->gather = gather;
-  gather->hits.count = 0, gather->failed = false;
+  gather->hits.count = 0;
   for (int l = 0; l < LANES; l++) {
     struct gathered *lane = &gather->lane[l];
     lane->found.count = lane->regions.count = 0, lane->found.failed = false;
@@ -49,15 +49,15 @@ void gather_best(struct packet *p, lane_mask taken)
                                       .leaf = p->best.leaf[lane]};
     struct hit *hit = growing_add(&gather->hits, 1, sizeof *hit);
     if (hit) *hit = hits[lane];
-    gather->failed |= !hit || !exact_list_add(&gather->lane[lane].found, &found);
+    p->tracer->failed |= !hit || !exact_list_add(&gather->lane[lane].found, &found);
   }
   forget_best(p, taken);
 }
 
-void gather_postpone(struct gather *gather, uint32_t patch, unsigned lane)
+void gather_postpone(struct packet *p, uint32_t patch, unsigned lane)
 {
-  struct exact_region *region = growing_add(&gather->lane[lane].regions, 1, sizeof *region);
-  gather->failed |= !region;
+  struct exact_region *region = growing_add(&p->gather->lane[lane].regions, 1, sizeof *region);
+  p->tracer->failed |= !region;
   if (region) *region = (struct exact_region){.patch = patch};
 }
 
@@ -86,14 +86,17 @@ static struct hit answer(const struct packet *p, unsigned lane, const struct exa
   return hit;
 }
 
-bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[])
+unsigned gather_finish(struct packet *p, const int *exponents, struct list_place out[])
 {
-  struct gather *gather = p->gather;
+  struct tracer *tracer = p->tracer;
+  unsigned grazing = 0;
   for (unsigned lane = 0; lane < p->count; lane++) {
-    const struct exact_list *list = &gather->lane[lane].found;
+    const struct exact_list *list = &p->gather->lane[lane].found;
     bool certain = decide(p, lane);
-    struct hit *hits = growing_add(&p->tracer->hits, list->count, sizeof *hits);
-    if (gather->failed || list->failed || !hits) return false;
+    const size_t first = tracer->hits.count;
+    struct hit *hits = growing_add(&tracer->hits, list->count, sizeof *hits);
+    tracer->failed |= list->failed || !hits;
+    if (tracer->failed) return 0;
     for (size_t k = 0; k < list->count; k++) {
       hits[k] = answer(p, lane, &list->at[k]);
       if (exponents) hits[k].t = ldexp(hits[k].t, -exponents[lane]);
@@ -101,7 +104,8 @@ bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]
       if (k > 0 && hits[k].t < hits[k - 1].t) hits[k].t = hits[k - 1].t;
       certain &= hits[k].certainty == CERTAINTY_CERTAIN;
     }
-    out[lane].count = list->count, out[lane].certainty = certain ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
+    out[lane] = (struct list_place){certain ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, first, list->count};
+    grazing |= (unsigned)!certain << lane;
   }
-  return true;
+  return grazing;
 }

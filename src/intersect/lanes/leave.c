@@ -2,13 +2,9 @@
  *
  * Compiled once per instruction set and without contraction.
  */
-#include <assert.h>
-#include <stddef.h>
 #include <string.h>
 
-#include "base/kernel.h"
-#include "base/lanes.h"
-#include "intersect/leave.h"
+#include "intersect/lanes/packet.h"
 
 /* At less than this sine between ray and surface, the way back along the ray is no longer than the clearance over this.
  */
@@ -16,16 +12,6 @@
 
 /* A hit as near as this to a border of its patch, in parameters, may have another surface beside it. */
 #define BESIDE_BORDER 0x1p-20
-
-/* Rays and hits are read four doubles at a time: a ray as origin and direction, t_min, t_max; a hit as its patch and
- * certainty together, t, u, v; the point and its error; the clearance and the normal. */
-enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double), HIT_STRIDE = sizeof(struct hit) / sizeof(double) };
-static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(double) &&
-                offsetof(struct ray, t_min) == 6 * sizeof(double) && HIT_STRIDE == 12 &&
-                offsetof(struct hit, t) == sizeof(double) && offsetof(struct hit, point) == 4 * sizeof(double) &&
-                offsetof(struct hit, clearance) == 8 * sizeof(double) &&
-                offsetof(struct hit, normal) == 9 * sizeof(double),
-              "read by fours");
 
 /* How a hit with that patch and certainty begins. */
 LANES_INLINE int64_t start_of(uint32_t patch, enum certainty certainty)
@@ -80,8 +66,8 @@ LANES_INLINE struct left leave_lanes(const struct ray rays[], const struct hit h
                        lanes_bits(hit & certain & ~through & (from_border(u, v) <= BESIDE_BORDER))};
 }
 
-struct left KERNEL(leave_some)(size_t count, const struct ray rays[], const struct hit hits[], const struct leaving *to,
-                               struct ray out[])
+struct left leave_some(size_t count, const struct ray rays[], const struct hit hits[], const struct leaving *to,
+                       struct ray out[])
 {
   struct left left = {0, 0};
   for (size_t first = 0; first < count; first += LANES) {

@@ -36,5 +36,6 @@
 #define gather_best KERNEL(gather_best)
 #define gather_postpone KERNEL(gather_postpone)
 #define gather_finish KERNEL(gather_finish)
+#define leave_some KERNEL(leave_some)
 
 #endif

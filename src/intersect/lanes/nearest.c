@@ -42,8 +42,8 @@ static void list_region(struct postponed *to, unsigned lane, struct exact_region
   else leave_out_last(to, lane, region);
 }
 
-/* Postpones the patch of the scene, in which what is open begins at `near`. What begins at a list's cut_from or behind is
- * ignored. */
+/* Postpones the patch of the scene, in which what is open begins at `near`. What begins at a list's cut_from or behind
+ * is ignored. */
 static void postpone(struct packet *p, uint32_t patch, lanes near, lane_mask open)
 {
   struct postponed *to = p->postponed;
@@ -54,7 +54,7 @@ static void postpone(struct packet *p, uint32_t patch, lanes near, lane_mask ope
   if (!p->gather) to->open |= lanes_bits(open);
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    if (p->gather) gather_postpone(p->gather, patch, lane);
+    if (p->gather) gather_postpone(p, patch, lane);
     else list_region(to, lane, (struct exact_region){patch, near[lane]});
   }
 }

@@ -2,17 +2,9 @@
  *
  * Compiled once per instruction set.
  */
-#include <assert.h>
 #include <math.h>
-#include <stddef.h>
 
 #include "intersect/lanes/packet.h"
-
-/* A ray is eight doubles in a row. */
-enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
-static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(double) &&
-                offsetof(struct ray, t_min) == 6 * sizeof(double),
-              "read as two fours");
 
 /* Loads the rays. The array has LANES of them, of which those from `count` on repeat the first, or a single one if
  * `count` is 1. */

@@ -5,6 +5,9 @@
 #ifndef PSCN_INTERSECT_LANES_PACKET_H
 #define PSCN_INTERSECT_LANES_PACKET_H
 
+#include <assert.h>
+#include <stddef.h>
+
 #include "base/double_lanes.h"
 #include "intersect/exact/exact.h"
 #include "intersect/lanes/surface.h"
@@ -15,6 +18,16 @@
 
 enum { ALL_LANES = (1 << LANES) - 1 };
 
+/* Rays and hits are read and written four doubles at a time: a ray as origin and direction, t_min, t_max; a hit as its
+ * patch and certainty together, t, u, v; the point and its error; the clearance and the normal. */
+enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double), HIT_STRIDE = sizeof(struct hit) / sizeof(double) };
+static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(double) &&
+                offsetof(struct ray, t_min) == 6 * sizeof(double) && HIT_STRIDE == 12 &&
+                offsetof(struct hit, t) == sizeof(double) && offsetof(struct hit, point) == 4 * sizeof(double) &&
+                offsetof(struct hit, clearance) == 8 * sizeof(double) &&
+                offsetof(struct hit, normal) == 9 * sizeof(double),
+              "read by fours");
+
 /* Prefetches `size` bytes, a number known at compile time. */
 LANES_INLINE void fetch(const void *from, size_t size)
 {
@@ -23,8 +36,8 @@ LANES_INLINE void fetch(const void *from, size_t size)
   for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch((const char *)from + at);
 }
 
-/* Roots nearer to the ray's start than this part of their patch's frame need more digits than their leaf gives. All roots
- * of rays between small things on a wide floor are as near. */
+/* Roots nearer to the ray's start than this part of their patch's frame need more digits than their leaf gives. All
+ * roots of rays between small things on a wide floor are as near. */
 #define NEAR_START 0x1p-16
 
 /* The last step on control points relative to the start, right to 2^-100, is enough for roots as near as this. */
@@ -135,8 +148,8 @@ static inline uint64_t packet_exact_limit(const struct packet *p, unsigned lane)
   return left > 0 ? (uint64_t)left / COST_EXACT : 0;
 }
 
-/* Charges each ray that cost: (a mask & a number is that number on the lanes of the mask, and 0 on the others). The walk
- * checks whether anything is left. */
+/* Charges each ray that cost: (a mask & a number is that number on the lanes of the mask, and 0 on the others). The
+ * walk checks whether anything is left. */
 LANES_INLINE void packet_charge(const struct packet *p, lane_mask cost) { p->postponed->left -= cost; }
 
 /* The largest absolute value of the three. */
@@ -238,28 +251,34 @@ void packet_leave(struct packet *inner);
 
 /* finish.c: writes the answers of the packet's rays. The last resort decides some; the others come from the best roots,
  * improved by a Newton step on the patch itself unless they are right to the last places already. t is in units of the
- * scaled direction. Returns, as bits, the lanes whose answers are not certain. */
-unsigned finish_hits(struct packet *p, struct hit out[]);
+ * scaled direction, times 2^-exponents[lane] if `exponents` is not NULL. Returns, as bits, the lanes whose answers are
+ * not certain. */
+unsigned finish_hits(struct packet *p, const int *exponents, struct hit out[]);
 
-/* finish.c: finish_hits for lanes that have nothing open; the lanes of `written` have their answers already. */
+/* finish.c: finish_hits, without exponents, for lanes that have nothing open; those of `written` have their answers
+ * already. */
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[]);
 
-/* finish.c: as bits, the rays that hit anything: the lanes have found a hit, or something left open is a hit or may
- * be. */
-unsigned finish_occluded(const struct packet *p);
+/* finish.c: writes which rays hit anything: they have found a hit, or something left open is a hit or may be. Returns,
+ * as bits, those whose budgets were exhausted, or that left more open than there is room for. */
+unsigned finish_occluded(const struct packet *p, bool out[]);
 
 /* gather.c: has the packet, which has just been started, gather there, beginning with nothing. */
 void gather_start(struct packet *p, struct gather *gather);
 
-/* gather.c: adds the packet's best roots, which were just taken on the lanes of `taken`, with their answers. Then there is no
- * best again. */
+/* gather.c: adds the packet's best roots, which were just taken on the lanes of `taken`, with their answers. Then there
+ * is no best again. */
 void gather_best(struct packet *p, lane_mask taken);
 
 /* gather.c: leaves a patch of the scene to the last resort on that lane. */
-void gather_postpone(struct gather *gather, uint32_t patch, unsigned lane);
+void gather_postpone(struct packet *p, uint32_t patch, unsigned lane);
 
-/* gather.c: writes the lists of the packet's rays, except for `hits`: these are added to tracer->hits, one list after the other.
- * t is multiplied by 2^-exponents[lane] if `exponents` is not NULL. Returns whether there was memory. */
-bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]);
+/* gather.c: writes the lists of the packet's rays, and adds their hits to tracer->hits. t is as from finish_hits.
+ * Returns, as bits, the lanes whose lists are not certain. */
+unsigned gather_finish(struct packet *p, const int *exponents, struct list_place out[]);
+
+/* leave.c: the kernel's `leave`. */
+struct left leave_some(size_t count, const struct ray rays[], const struct hit hits[], const struct leaving *to,
+                       struct ray out[]);
 
 #endif

@@ -1,5 +1,5 @@
-/* The resultant of a candidate's plane polynomials (paper eq 4 to 6, in Bernstein form), its roots by the scene's method,
- * on all lanes of a packet at once or one by one, and what is proven of them.
+/* The resultant of a candidate's plane polynomials (paper eq 4 to 6, in Bernstein form), its roots by the scene's
+ * method, on all lanes of a packet at once or one by one, and what is proven of them.
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
@@ -148,8 +148,8 @@ static void starts_set(const struct candidate *it, int k, lanes kept, struct roo
   out->u[k] = it->form.v_kept ? other : at, out->v[k] = it->form.v_kept ? at : other;
 }
 
-/* Takes start values from where the control polygon of r crosses zero last and, if r may have several roots, first. *out
- * is empty before. */
+/* Takes start values from where the control polygon of r crosses zero last and, if r may have several roots, first.
+ * *out is empty before. */
 static void polygon_starts(const struct candidate *it, lane_mask open, struct root_starts *out)
 {
   for (int k = 0; k < 2; k++) {

@@ -13,7 +13,7 @@
 /* The half width of a cube that holds all boxes, with the roundings of making them. */
 #define FRAME_HALF 1.0625
 
-/* A ray that starts farther away than FRAME_NEAR is moved up to the frame first. From beyond FRAME_FAR doubles lose it. */
+/* A ray that starts farther away than FRAME_NEAR is moved up to the frame first. Doubles lose it from beyond FRAME_FAR. */
 #define FRAME_NEAR 16.0
 #define FRAME_FAR 0x1p30
 

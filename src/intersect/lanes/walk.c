@@ -294,94 +294,45 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
   bundle_start(b, &tracer->model->tree);
 }
 
-/* Returns the rays, as bits, whose answers are not settled. */
-LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[],
-                                     struct hit out_hits[], int budget)
+/* Returns, as bits, the rays whose answers might differ in other company. */
+LANES_INLINE unsigned bundle_trace(struct tracer *tracer, enum wanted wanted, size_t count, const struct ray rays[],
+                                   void *answers, int budget)
 {
+  const bool any = wanted == WANTED_ANY;
   unsigned unsettled = 0;
   struct ready ready[PACKETS];
   struct bundle bundle;
-  bundle_begin(&bundle, ready, tracer, count, rays, false, budget);
-  bundle_walk(&bundle, &tracer->model->tree, bundle.live);
+  bundle_begin(&bundle, ready, tracer, count, rays, any, budget);
+  for (int h = 0; h < bundle.packets && wanted == WANTED_ALL; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
+  bundle_walk_all(&bundle, tracer->model);
   for (size_t h = 0; h < packets_of(count); h++) {
     struct packet *packet = &bundle.packet[h];
-    struct hit *hits = out_hits + h * LANES;
-    const unsigned grazing = finish_hits(packet, hits);
-    for (size_t l = 0; l < packet->count && ready[h].copied; l++)
-      if (hits[l].patch != HIT_NONE) hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
-    const size_t count_grazing = (size_t)__builtin_popcount(grazing);
-    unsettled |= grazing << h * LANES;
-    tracer->counts.grazing += count_grazing, tracer->counts.certain += packet->count - count_grazing;
-    tracer->counts.rays[0] += packet->count;
+    const int *exponents = ready[h].copied ? ready[h].exponent : NULL;
+    void *out = wanted_at(wanted, answers, h * LANES);
+    const unsigned here = any                        ? finish_occluded(packet, out)
+                          : wanted == WANTED_CLOSEST ? finish_hits(packet, exponents, out)
+                                                     : gather_finish(packet, exponents, out);
+    const size_t grazing = any ? 0 : (size_t)__builtin_popcount(here);
+    tracer->counts.grazing += grazing, tracer->counts.certain += any ? 0 : packet->count - grazing;
+    tracer->counts.rays[any] += packet->count;
+    unsettled |= here << h * LANES;
   }
   return unsettled;
 }
 
-/* A ray that did not come to an end counts as hit. In company it is traced again alone. */
-LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out[], int budget)
+/* Whether any hit was found is settled unless a budget was exhausted: only then is a ray of several traced again. A
+ * single ray has a call of its own, so that it costs no loops over more. */
+static unsigned trace(struct tracer *tracer, enum wanted wanted, size_t count, const struct ray rays[], void *answers)
 {
-  struct ready ready[PACKETS];
-  struct bundle bundle;
-  bundle_begin(&bundle, ready, tracer, count, rays, true, budget);
-  bundle_walk_all(&bundle, tracer->model);
-  bool again = false;
-  for (size_t h = 0; h < packets_of(count); h++) {
-    const struct packet *packet = &bundle.packet[h];
-    const unsigned hit = finish_occluded(packet);
-    again |= packet_cut_off(packet) != 0;
-    for (size_t l = 0; l < packet->count; l++) out[h * LANES + l] = hit >> l & 1;
-    tracer->counts.rays[1] += packet->count;
-  }
-  return again;
-}
-
-LANES_INLINE int budget_of(const struct tracer *tracer, size_t count)
-{
-  return tracer_repeats(tracer, count) ? tracer->budget >> BUDGET_IN_COMPANY : tracer->budget;
-}
-
-/* A single ray has a call of its own, so that it costs no loops over more. */
-static unsigned closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
-{
-  const int budget = budget_of(tracer, count);
-  if (count == 1) return bundle_closest(tracer, 1, rays, out_hits, budget);
+  const bool repeats = wanted == WANTED_ANY ? count > 1 : tracer_repeats(tracer, count);
+  const int budget = repeats ? tracer->budget >> BUDGET_IN_COMPANY : tracer->budget;
   unsigned unsettled = 0;
-  for (size_t first = 0; first < count; first += FLOAT_LANES)
-    unsettled |= bundle_closest(tracer, count - first, rays + first, out_hits + first, budget) << first;
-  return unsettled;
-}
-
-static bool occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
-{
-  if (count == 1) return bundle_occluded(tracer, 1, rays, out_occluded, tracer->budget);
-  bool again = false;
-  for (size_t first = 0; first < count; first += FLOAT_LANES)
-    again |= bundle_occluded(tracer, count - first, rays + first, out_occluded + first,
-                             tracer->budget >> BUDGET_IN_COMPANY);
-  return again;
-}
-
-/* Adds the lists' hits to tracer->hits, one list after the other. Where they are is known when all of them are
- * there. */
-static bool all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
-{
-  const int budget = budget_of(tracer, count);
-  bool done = true;
-  for (size_t first = 0; first < count; first += FLOAT_LANES) {
-    struct ready ready[PACKETS];
-    struct bundle bundle;
-    bundle_begin(&bundle, ready, tracer, count - first, rays + first, false, budget);
-    for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
-    bundle_walk_all(&bundle, tracer->model);
-    for (size_t h = 0; h < (size_t)bundle.packets; h++) {
-      struct packet *packet = &bundle.packet[h];
-      done &= gather_finish(packet, ready[h].copied ? ready[h].exponent : NULL, out + first + h * LANES);
-      tracer->counts.rays[0] += packet->count;
-    }
+  if (count == 1) (void)bundle_trace(tracer, wanted, 1, rays, answers, budget);
+  for (size_t first = 0; first < count && count > 1; first += FLOAT_LANES) {
+    void *out = wanted_at(wanted, answers, first);
+    unsettled |= bundle_trace(tracer, wanted, count - first, rays + first, out, budget) << first;
   }
-  for (size_t k = 0; k < count && done; k++)
-    ++*(out[k].certainty == CERTAINTY_CERTAIN ? &tracer->counts.certain : &tracer->counts.grazing);
-  return done;
+  return repeats ? unsettled : 0;
 }
 
-const struct kernel KERNEL(kernel) = {KERNEL_NAME, closest, occluded, all};
+const struct kernel KERNEL(kernel) = {KERNEL_NAME, trace, leave_some};
