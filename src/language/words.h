@@ -1,11 +1,9 @@
-/* Words: the token of each, and those that are POV-Ray's and not ours. */
+/* Words: the token of each, those that are POV-Ray's and not ours, and the one that a misspelt word was meant to be. */
 #ifndef PSCN_LANGUAGE_WORDS_H
 #define PSCN_LANGUAGE_WORDS_H
 
 #include <stdbool.h>
 #include <stddef.h>
-
-#include "base/guess.h"
 
 /* The token of a word; and of a directive, given with its #. */
 int words_token(const char *word, size_t length);
@@ -37,6 +35,20 @@ int words_compare(const char *word, size_t length, const char *name);
 /* The row of that word in a table of `count` rows of `size` bytes, sorted by the names with which they begin, or NULL. */
 const void *words_find(const char *word, size_t length, const void *table, size_t count, size_t size);
 
+/* "a, b or c", cut off at `size` bytes. */
+void words_list(const char *const words[], size_t count, char *out, size_t size);
+
+/* A search for the word that was meant by another. A third of its letters may be wrong, and at least one; insertions,
+ * deletions, replacements and swaps of neighbours count. Of equally near candidates the first is taken. */
+struct guess {
+  const char *word;
+  size_t length;
+  const char *best; /* NULL if none is near enough */
+  size_t best_length, distance;
+};
+
+struct guess guess_begin(const char *word, size_t length);
+void guess_consider(struct guess *guess, const char *candidate, size_t length);
 void guess_keywords(struct guess *guess);   /* considers all words of the language */
 void guess_directives(struct guess *guess); /* considers all its directives */
 
