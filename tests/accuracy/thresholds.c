@@ -32,7 +32,7 @@ static void aim_all(struct random *random, double size, struct situation *s)
   for (int n = 0; n < RAYS; n++) aim(random, s, size, &s->rays[n]);
 }
 
-/* The lengths at which directions are taken for short or long (packet.c, view.c), and what a float can not hold. */
+/* The lengths at which directions are taken for short or long (packet.c, view.h), and what a float can not hold. */
 void threshold_directions(struct random *random, size_t index, struct situation *s)
 {
   static const int limits[] = {16, -16, 80, -80, 40, -40, 127, -127, 300, -300};

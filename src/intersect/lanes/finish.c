@@ -14,9 +14,8 @@
 /* The answers of a packet's lanes. */
 struct answers {
   lanes u, v, t;
-  struct surface_point point;
-  lanes normal[3]; /* of unit length and either sense */
-  lane_mask done;  /* point and normal are sure, and the root has moved no farther than its radius */
+  struct surface surface;
+  lane_mask done; /* the point is sure, and the root has moved no farther than its radius */
 };
 
 /* ---- the last Newton step ---- */
@@ -128,14 +127,12 @@ static struct answers last_step(const struct packet *p, const struct model_patch
   a.t = lanes_select(moving, (t + left * inverse) * patch->scale, best->t);
   a.u = lanes_clamp(lanes_select(lost, from_u, u + du), 0, 1);
   a.v = lanes_clamp(lanes_select(lost, from_v, v + dv), 0, 1);
-  const lanes to_u = a.u - u, to_v = a.v - v, tangent = surface_tangent(jet.du, jet.dv);
-  lanes point[3], normal[3];
+  const lanes to_u = a.u - u, to_v = a.v - v;
+  lanes point[3];
   for (int c = 0; c < 3; c++) point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
-  a.point = surface_point(patch, point, tangent);
-  surface_cross(jet.du, jet.dv, normal);
-  a.done = surface_normal(normal, tangent, a.normal) & ~lost & ~(again & near) &
-           (lanes_abs(a.u - best->u) <= best->radius_u) & (lanes_abs(a.v - best->v) <= best->radius_v) &
-           packet_has_digits(p, patch, NEAREST_START, best->t);
+  surface_set(patch, point, jet.du, jet.dv, 1, &a.surface);
+  a.done = ~lost & ~(again & near) & (lanes_abs(a.u - best->u) <= best->radius_u) &
+           (lanes_abs(a.v - best->v) <= best->radius_v) & packet_has_digits(p, patch, NEAREST_START, best->t);
   return a;
 }
 
@@ -223,20 +220,24 @@ unsigned finish_occluded(const struct packet *p, bool out[])
 LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
 {
   const struct best *best = &p->best;
+  const struct surface *on = &a->surface;
   const unsigned doubt = packet_doubt(p);
+  const lanes *across = on->normal,
+              length = lanes_sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+  const lanes inverse = 1 / length;
   lanes facing = lanes_all(0), normal[3];
-  for (int c = 0; c < 3; c++) facing += a->normal[c] * p->direction[c];
-  for (int c = 0; c < 3; c++) normal[c] = lanes_select(facing > 0, -a->normal[c], a->normal[c]);
+  for (int c = 0; c < 3; c++) normal[c] = across[c] * inverse, facing += normal[c] * p->direction[c];
+  for (int c = 0; c < 3; c++) normal[c] = lanes_select(facing > 0, -normal[c], normal[c]);
   const lane_mask done = a->done & best->certain & (a->t > p->t_min) & (a->t < p->t_max) &
-                         (best->radius_u <= BLURRED_RADIUS) & (best->radius_v <= BLURRED_RADIUS);
+                         (best->radius_u <= BLURRED_RADIUS) & (best->radius_v <= BLURRED_RADIUS) &
+                         (length > SURFACE_SURE * on->tangent * lanes_max(on->tangent, lanes_all(SURFACE_LEAST)));
   const unsigned done_bits = lanes_bits(done);
   struct hit some[LANES];
   struct hit *row = (group & done_bits) == ALL_LANES ? out : some;
   unsigned grazing = 0;
-  const struct surface_point *point = &a->point;
-  lanes_store4(a->t, a->u, a->v, point->at[0], &row->t, HIT_STRIDE);
-  lanes_store4(point->at[1], point->at[2], point->error, point->clearance, &row->point[1], HIT_STRIDE);
-  lanes_store4(point->clearance, normal[0], normal[1], normal[2], &row->clearance, HIT_STRIDE);
+  lanes_store4(a->t, a->u, a->v, on->at[0], &row->t, HIT_STRIDE);
+  lanes_store4(on->at[1], on->at[2], on->error, on->clearance, &row->point[1], HIT_STRIDE);
+  lanes_store4(on->clearance, normal[0], normal[1], normal[2], &row->clearance, HIT_STRIDE);
   if (row == out && !doubt) { /* most of the time */
     for (int l = 0; l < LANES; l++) out[l].patch = (uint32_t)best->patch[l], out[l].certainty = CERTAINTY_CERTAIN;
     return 0;
@@ -253,17 +254,6 @@ LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const s
     grazing |= (unsigned)(out[l].certainty == CERTAINTY_GRAZING) << l;
   }
   return grazing;
-}
-
-/* Finishes the lanes of `group`, whose best roots are final. */
-static unsigned finish_final(const struct packet *p, unsigned group, struct hit out[])
-{
-  const struct best *best = &p->best;
-  struct answers a;
-  a.u = lanes_clamp(best->u, 0, 1), a.v = lanes_clamp(best->v, 0, 1), a.t = best->t;
-  a.done = surface_normal(best->normal, best->tangent, a.normal);
-  a.point = best->point;
-  return write_hits(p, group, &a, out);
 }
 
 /* Has the last resort decide what is open. Returns the lanes, as bits, whose answers are written. */
@@ -300,7 +290,12 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
   grazing |= write_misses(out, left & ~hits, packet_doubt(p));
   left &= hits;
   const unsigned final = left & lanes_bits(p->best.final);
-  if (final) grazing |= finish_final(p, final, out);
+  if (final) {
+    const struct best *best = &p->best;
+    const struct answers answers = {lanes_clamp(best->u, 0, 1), lanes_clamp(best->v, 0, 1), best->t, best->surface,
+                                    lanes_mask(final)};
+    grazing |= write_hits(p, final, &answers, out);
+  }
   left &= ~final;
   while (left) {
     const unsigned first = (unsigned)__builtin_ctz(left);

@@ -238,21 +238,17 @@ LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candid
 LANES_INLINE void packet_keep(struct packet *p, const struct candidate *it, const struct leaf_root *root,
                               lane_mask taken)
 {
-  const struct model_patch *patch = it->patch;
-  struct best *best = &p->best;
-  lanes normal[3];
-  surface_cross(root->su, root->sv, normal);
-  const lanes tangent = surface_tangent(root->su, root->sv);
-  const int most = patch->cut.split[0] > patch->cut.split[1] ? patch->cut.split[0] : patch->cut.split[1];
-  const struct surface_point point = surface_point(patch, root->point, most * tangent);
+  const uint16_t *split = it->patch->cut.split;
+  struct surface found, *kept = &p->best.surface;
+  surface_set(it->patch, root->point, root->su, root->sv, split[0] > split[1] ? split[0] : split[1], &found);
   for (int c = 0; c < 3; c++) {
-    best->point.at[c] = lanes_select(taken, point.at[c], best->point.at[c]);
-    best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
+    kept->at[c] = lanes_select(taken, found.at[c], kept->at[c]);
+    kept->normal[c] = lanes_select(taken, found.normal[c], kept->normal[c]);
   }
-  best->tangent = lanes_select(taken, tangent, best->tangent);
-  best->point.error = lanes_select(taken, point.error, best->point.error);
-  best->point.clearance = lanes_select(taken, point.clearance, best->point.clearance);
-  best->final |= taken & root_is_final(p, it, root);
+  kept->tangent = lanes_select(taken, found.tangent, kept->tangent);
+  kept->error = lanes_select(taken, found.error, kept->error);
+  kept->clearance = lanes_select(taken, found.clearance, kept->clearance);
+  p->best.final |= taken & root_is_final(p, it, root);
 }
 
 void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits)

@@ -10,8 +10,8 @@
 
 #include "base/double_lanes.h"
 #include "intersect/exact/exact.h"
-#include "intersect/lanes/surface.h"
 #include "intersect/lanes/names.h"
+#include "intersect/point.h"
 #include "intersect/tracer.h"
 
 #define NO_PATCH INT64_MAX
@@ -47,16 +47,38 @@ LANES_INLINE void fetch(const void *from, size_t size)
  * better than 2^-60 (MOMENT_ERROR). */
 #define FAR_START 0x1p40
 
+/* A point in the scene, with its error and clearance as in struct hit, and its normal. */
+struct surface {
+  lanes at[3], error, clearance;
+  lanes normal[3]; /* of any length and sense */
+  lanes tangent;   /* bound on the coordinates of the derivatives whose product is the normal */
+};
+
+/* Sets it from a point in the patch's frame and its derivatives; `scale` times these are by the patch's parameters. */
+LANES_INLINE void surface_set(const struct model_patch *patch, const lanes local[3], const lanes su[3],
+                              const lanes sv[3], double scale, struct surface *out)
+{
+  lanes magnitude = lanes_all(0);
+  out->tangent = lanes_all(0);
+  for (int c = 0; c < 3; c++) {
+    const int i = (c + 1) % 3, j = (c + 2) % 3;
+    out->normal[c] = su[i] * sv[j] - su[j] * sv[i];
+    out->tangent = lanes_max(lanes_abs(su[c]) + lanes_abs(sv[c]), out->tangent);
+    out->at[c] = patch->center[c] + patch->scale * local[c];
+    magnitude = lanes_max(lanes_abs(out->at[c]), magnitude);
+  }
+  out->error = POINT_ERROR(patch->scale, scale * out->tangent, magnitude);
+  out->clearance = out->error + CLEARANCE(patch->scale, patch->cut.loose, magnitude);
+}
+
 /* The best root of every lane. */
 struct best {
   lanes u, v, radius_u, radius_v; /* parameters of the whole patch; the exact root is within the radii */
   lanes t;                        /* infinite: none */
   lane_mask patch, leaf;          /* where it is, NO_PATCH: nowhere; they order roots of equal t */
   lane_mask certain;              /* proven */
-  lane_mask final; /* right to the last places, and the members below are set; others get them from last_step */
-  struct surface_point point;
-  lanes normal[3]; /* of any length and sense */
-  lanes tangent;   /* bound on the coordinates of the derivatives whose product is the normal */
+  lane_mask final;                /* right to the last places, and `surface` is set; others get theirs from last_step */
+  struct surface surface;
   lane_mask doubt; /* unsure: a root near t_min was left out unproven, or the budget was exhausted */
 };
 
