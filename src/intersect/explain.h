@@ -57,30 +57,15 @@ void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listen
 
 /* ---- internal to src/intersect ---- */
 
-struct model;
-struct model_patch;
-struct leaf;
-
-/* What the lanes know of a candidate's ray, which is the only one of its packet, in the coordinates of the leaf's
- * model. That model's first patch is first_patch in the scene; t in the scene is shift + t. */
-struct explained_ray {
-  const struct leaf *leaf;
-  const struct model_patch *patch; /* the leaf's */
-  uint32_t first_patch;
-  /* the ray's planes in the frame of the patch (local_ray.h), and t = ((x_k + start[1]) + start[0]) to_t */
-  int axis;
-  double slope[2], moment[2], start[2], to_t;
-  double shift;
-  bool blind, proven;
-  double t, u, v, radius_u, radius_v; /* the nearest so far */
+/* The listener, and the candidate under way (lanes/explain.c). */
+struct explainer {
+  explain_listener *listener;
+  void *context;
+  struct intersect_counts before; /* at the start of the candidate */
+  double t_before;
+  bool warmed; /* `warm` holds the warm start of the candidate's solver */
+  struct solver_warm warm;
+  struct explained_candidate story;
 };
-
-/* Where method.c puts what becomes of a candidate's r; NULL for nowhere. */
-struct explained_roots *explain_roots(struct tracer *tracer);
-
-/* Called before and after a candidate, if the tracer is to explain. */
-void explain_before(struct tracer *tracer, const struct model *model, const struct model_patch *patch, int64_t leaf,
-                    double t);
-void explain_after(struct tracer *tracer, const struct explained_ray *ray);
 
 #endif

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/real.h"
 #include "geometry/vector.h"
+#include "intersect/explain.h"
 #include "intersect/tracer.h"
 
 struct intersector {
@@ -201,6 +202,15 @@ void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[]
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
   trace(tracer, WANTED_ANY, count, rays, out_occluded);
+}
+
+void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *listener, void *context,
+                    struct hit *out_hit)
+{
+  struct explainer explainer = {.listener = listener, .context = context};
+  tracer->explainer = &explainer;
+  tracer_closest(tracer, 1, ray, out_hit);
+  tracer->explainer = NULL;
 }
 
 enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])

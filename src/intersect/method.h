@@ -12,13 +12,11 @@
 #include "intersect/prepare/leaf.h"
 #include "intersect/tracer.h"
 
-enum { METHOD_MAX_ROOTS = POLYNOMIAL_MAX_DEGREE };
-
 struct method_roots {
   int found; /* roots of r */
   int steps; /* of the iterations that found them */
   int count;
-  double u[METHOD_MAX_ROOTS], v[METHOD_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
+  double u[POLYNOMIAL_MAX_DEGREE], v[POLYNOMIAL_MAX_DEGREE]; /* leaf parameters, near or in [0,1] */
 };
 
 /* A leaf's polynomials on a ray. */

@@ -109,7 +109,7 @@ struct tracer {
   struct growing hits;               /* struct hit: all lists of the last call of tracer_all */
   bool failed;                       /* memory was short for that call */
   int budget;                        /* RAY_BUDGET; less in tests */
-  struct explainer *explainer;       /* explain.c; NULL for none */
+  struct explainer *explainer;       /* explain.h; NULL for none */
   const atomic_int *stop;            /* tracer_stop_at; or NULL */
 };
 
@@ -137,10 +137,11 @@ struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct lea
  * has never found all hits has nothing to free. */
 void tracer_end(struct tracer *tracer);
 
-/* The warm start of the leaf with this number in the tracer's model; NULL if the method uses none. */
-static inline struct solver_warm *tracer_warm(struct tracer *tracer, const struct method *method, int64_t leaf)
+/* The warm start of the leaf with this number in the model; NULL if the method uses none, or if it is an object's. */
+static inline struct solver_warm *tracer_warm(struct tracer *tracer, const struct model *model,
+                                              const struct method *method, int64_t leaf)
 {
-  if (method->roots.start != START_PREVIOUS || !tracer->warm) return NULL;
+  if (method->roots.start != START_PREVIOUS || !tracer->warm || model != tracer->model) return NULL;
   struct warm_leaf *warm = &tracer->warm[leaf];
   if (warm->epoch != tracer->epoch) warm->warm.count = 0, warm->epoch = tracer->epoch;
   return &warm->warm;

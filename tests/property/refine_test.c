@@ -246,20 +246,14 @@ TEST(proven_roots_are_where_they_are_said_to_be)
   assert_true(alone > 50);
 }
 
-/* Whether a border of the leaf is a point. */
-static bool has_pole(const struct model_patch *patch, const struct leaf *leaf)
-{
-  const uint16_t *split = patch->cut.split;
-  return (patch->pole[0] && leaf->column_u == 0) || (patch->pole[1] && leaf->column_u == split[0] - 1) ||
-         (patch->pole[2] && leaf->column_v == 0) || (patch->pole[3] && leaf->column_v == split[1] - 1);
-}
-
 static struct tally fan_roots;
 
 static void check_fan(struct subject *s, struct random *random)
 {
   static const double slants[] = {2, 0.5, 0.2, 0.1};
-  if (!has_pole(&s->model->patches[s->leaf->patch], s->leaf)) return;
+  int pole = 0;
+  while (pole < 4 && !leaf_border_is_point(&s->model->patches[s->leaf->patch], s->leaf, pole)) pole++;
+  if (pole == 4) return;
   if (random_bits(random) % 4) aim(s, random, slants[random_bits(random) % 4]);
   const double start[2] = {random_between(random, -0.6, 0.6), random_between(random, -0.6, 0.6)};
   struct leaf_root root;

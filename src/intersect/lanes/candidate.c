@@ -5,7 +5,6 @@
 #include "intersect/lanes/candidate.h"
 
 #include "base/real.h"
-#include "intersect/explain.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
 
@@ -66,30 +65,6 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (lanes_any(open)) packet_postpone(p, it, open);
 }
 
-/* Reports what came of a candidate for a ray that is to be explained. It is in lane 0, and the other lanes are the
- * same. */
-static void candidate_explain(const struct packet *p, const struct candidate *it, bool blind)
-{
-  const struct best *best = &p->best;
-  struct explained_ray report = {.leaf = it->leaf,
-                                 .patch = it->patch,
-                                 .first_patch = packet_patch(p, it->leaf) - it->leaf->patch,
-                                 .axis = it->axis,
-                                 .to_t = it->line->to_t[0],
-                                 .shift = p->outer ? p->shift[0] : 0,
-                                 .blind = blind,
-                                 .proven = best->certain[0] != 0,
-                                 .t = best->t[0],
-                                 .u = best->u[0],
-                                 .v = best->v[0],
-                                 .radius_u = best->radius_u[0],
-                                 .radius_v = best->radius_v[0]};
-  for (int k = 0; k < 2; k++)
-    report.slope[k] = it->line->slope[k][0], report.moment[k] = it->line->moment[k][0],
-    report.start[k] = it->line->start[k][0];
-  explain_after(p->tracer, &report);
-}
-
 /* If the plane polynomials of a patch are known no better than this, because the ray starts far away, double precision
  * proves no root, and the last resort examines most of the patch in any case. */
 #define BLIND 0x1p-5
@@ -129,8 +104,8 @@ void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *
     const lane_mask here = at & ~blind;
     if (lanes_any(blind)) packet_postpone(p, &it, blind);
     const bool explained = p->tracer->explainer && lanes_any(at);
-    if (explained) explain_before(p->tracer, p->model, it.patch, it.number, p->best.t[0]);
+    if (explained) explain_before(p, &it);
     if (lanes_any(here)) candidate_pass(p, &it, here);
-    if (explained) candidate_explain(p, &it, lanes_any(blind));
+    if (explained) explain_after(p, &it, lanes_any(blind));
   }
 }

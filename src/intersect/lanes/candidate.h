@@ -103,6 +103,11 @@ lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open
 /* resultant.c: without polish the roots of r are the answer, proven or not. */
 lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
 
+/* explain.c: called before and after a candidate, if the tracer is to explain (explain.h); `blind`: it was postponed at
+ * once. */
+void explain_before(const struct packet *p, const struct candidate *it);
+void explain_after(const struct packet *p, const struct candidate *it, bool blind);
+
 /* ---- what they call ---- */
 
 /* nearest.c: postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it

@@ -257,25 +257,14 @@ static bool cover(const struct piece_ray *ray, struct piece stack[COVER_HALVINGS
   return true;
 }
 
-/* The leaf's first border (geometry/edges.h) that is a pole, or -1. */
-static int leaf_pole(const struct model_patch *patch, const struct leaf *leaf)
-{
-  const uint16_t *split = patch->cut.split;
-  const bool *pole = patch->pole;
-  return pole[0] && leaf->column_u == 0              ? 0
-         : pole[1] && leaf->column_u == split[0] - 1 ? 1
-         : pole[2] && leaf->column_v == 0            ? 2
-         : pole[3] && leaf->column_v == split[1] - 1 ? 3
-                                                     : -1;
-}
-
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2])
 {
   struct piece stack[COVER_HALVINGS + 2], *leaf = &stack[0];
   struct piece_ray ray = {.leaf = it->leaf, .count = count, .roots = roots};
-  const int pole = leaf_pole(it->patch, it->leaf);
   lanes from, to, off;
+  int pole = 0; /* the first border that is one */
+  while (pole < 4 && !leaf_border_is_point(it->patch, it->leaf, pole)) pole++;
   /* up to t_max and not the nearest hit so far, or answers would depend on the way through the hierarchy */
   ray_ends(p, it, p->t_max, &from, &to, &off);
   off += 2 * it->line->error;
@@ -286,7 +275,7 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
     for (int n = 0; n < 16; n++)
       leaf->f[0].c[n / 4][n % 4] = it->a[n][lane], leaf->f[1].c[n / 4][n % 4] = it->b[n][lane];
     for (int k = 0; k < 2; k++) ray.size[k] = net_size(&leaf->f[k]), ray.error[k] = it->line->error[lane];
-    if (pole >= 0) piece_divide(&ray, pole, leaf);
+    if (pole < 4) piece_divide(&ray, pole, leaf);
     ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
     double middle[2];
     int splits;

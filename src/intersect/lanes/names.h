@@ -29,6 +29,8 @@
 #define finish_hits KERNEL(finish_hits)
 #define finish_best KERNEL(finish_best)
 #define finish_occluded KERNEL(finish_occluded)
+#define explain_before KERNEL(explain_before)
+#define explain_after KERNEL(explain_after)
 #define gather_start KERNEL(gather_start)
 #define gather_best KERNEL(gather_best)
 #define gather_postpone KERNEL(gather_postpone)

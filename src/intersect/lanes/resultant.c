@@ -181,8 +181,10 @@ static void lane_solve(const struct packet *p, const struct candidate *it, unsig
   const double degree = 2 * it->form.kept_degree * it->form.eliminated_degree,
                step = degree * (method->polish ? 1.0 : BARE_COST) / PRODUCTS_A_UNIT; /* its cost */
   const double most = (double)left / (step * degree);                                /* of each root */
-  method_find(method, &planes, most < INT_MAX ? (int)most : INT_MAX, tracer_warm(p->tracer, method, it->number), out,
-              explain_roots(p->tracer));
+  struct explainer *explainer = p->tracer->explainer;
+  if (explainer) explainer->story.by_solver = true;
+  method_find(method, &planes, most < INT_MAX ? (int)most : INT_MAX,
+              tracer_warm(p->tracer, p->model, method, it->number), out, explainer ? &explainer->story.found : NULL);
   p->tracer->counts.roots_found += (unsigned)out->found;
   lane_mask cost = {0};
   cost[lane] = (int64_t)(step * out->steps);
@@ -256,8 +258,7 @@ static lane_mask all_roots_solve(struct packet *p, const struct candidate *it, l
   const struct solver_options *options = &it->patch->method->roots;
   if (!lanes_any(active)) return active;
   out->method = it->patch->lanes;
-  struct solver_warm *warm = p->model == p->tracer->model ? tracer_warm(p->tracer, it->patch->method, it->number)
-                                                          : NULL;
+  struct solver_warm *warm = tracer_warm(p->tracer, p->model, it->patch->method, it->number);
   all_roots_start(out, warm, active);
   const double settled = options->tolerance > ROOTS_SETTLED ? options->tolerance : ROOTS_SETTLED;
   const lane_mask done = roots_lanes_run(out, active, enough, settled, options->max_iterations);
@@ -296,12 +297,6 @@ struct all_roots {
   lane_mask proven[TRIED_ROOTS]; /* a root, and none of those before it */
 };
 
-/* Whether r is made of the leaf's own polynomials, and so has a root for each of the leaf's. Polynomials of a lower
- * degree are off by the excess. Moved by a constant they have any one root of the leaf as their root, but two roots
- * may need different constants, and so different r. The sign variations of r then prove that there is no root, but do
- * not bound how many there are. */
-LANES_INLINE bool resultant_counts(const struct candidate *it) { return it->form.excess == 0; }
-
 /* Refines the roots by Newton's method, and proves them. Returns the lanes that are decided: one root is alone in the
  * leaf, or there are as many roots as r has sign variations. */
 static lane_mask all_roots_prove(const struct packet *p, const struct candidate *it, const struct root_starts *starts,
@@ -331,7 +326,11 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
     *proven |= only;
     alone |= only;
   }
-  return resultant_counts(it) ? alone | ((found > 0) & (within == it->variations)) : alone;
+  /* Only if r is made of the leaf's own polynomials has it a root for each of the leaf's. Polynomials of a lower degree
+   * are off by the excess. Moved by a constant they have any one root of the leaf as their root, but two roots may need
+   * different constants, and so different r. The sign variations of r then prove that there is no root, but do not
+   * bound how many there are. */
+  return it->form.excess == 0 ? alone | ((found > 0) & (within == it->variations)) : alone;
 }
 
 /* The lanes of `open` where pieces prove these roots to be all of the leaf's. Those without any are not tried by the

@@ -19,6 +19,13 @@ static inline bool split_is_exact(int leaves) { return leaves <= EXACT_LEAVES &&
  * derivatives. */
 static inline double turn_of(const double second[3]) { return (second[0] + 2 * second[1] + second[2]) / 2; }
 
+/* Whether the leaf's border (geometry/edges.h) is a point. */
+static inline bool leaf_border_is_point(const struct model_patch *patch, const struct leaf *leaf, int border)
+{
+  const int column = border < 2 ? leaf->column_u : leaf->column_v, last = patch->cut.split[border / 2] - 1;
+  return patch->pole[border] && column == (border & 1 ? last : 0);
+}
+
 /* Makes leaf `number` of patch number `index`: the one at columns number / split[1] and number % split[1]. */
 void leaf_make(const struct model_patch *patch, uint32_t index, uint32_t number, struct leaf *out);
 

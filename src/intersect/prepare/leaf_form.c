@@ -6,13 +6,6 @@
 #include "geometry/patch.h"
 #include "intersect/prepare/leaf.h"
 
-/* Whether the leaf's border (geometry/edges.h) is a point. */
-static bool border_is_point(const struct model_patch *patch, const struct leaf *leaf, int border)
-{
-  const int column = border < 2 ? leaf->column_u : leaf->column_v, last = patch->cut.split[border / 2] - 1;
-  return patch->pole[border] && column == (border & 1 ? last : 0);
-}
-
 /* A declared control point carries half a unit in the last place from its decimal form and a few from its transforms. A
  * patch whose excess over a lower degree is at most this, relative to its largest coordinate, was meant to be of that
  * degree. */
@@ -66,7 +59,7 @@ void leaf_form_make(const struct model_patch *patch, const struct leaf *leaf, st
   const bool v_kept = out->v_kept = keep_v(m, n, (const double(*)[4][4])x);
   out->kept_degree = (uint8_t)(v_kept ? n : m), out->eliminated_degree = (uint8_t)(v_kept ? m : n);
   for (int end = 0; end < 2; end++)
-    out->zeros[end] = border_is_point(patch, leaf, 2 * v_kept + end) ? out->eliminated_degree : 0;
+    out->zeros[end] = leaf_border_is_point(patch, leaf, 2 * v_kept + end) ? out->eliminated_degree : 0;
   out->own = m == 3 && n == 3 && !v_kept, out->size = 1, out->excess = 0;
   for (int k = 0; k < 3 && !out->own; k++) {
     double r[4][4];
