@@ -19,17 +19,6 @@ struct later {
   } at[MOST_LATER];
 };
 
-/* Defers the leaf for these rays. Returns false if there is no room. */
-static inline bool later_add(struct later *later, uint32_t leaf, unsigned rays)
-{
-  unsigned k = 0;
-  while (k < later->count && later->at[k].leaf != leaf) k++;
-  if (k == MOST_LATER) return false;
-  if (k == later->count) later->at[later->count++].leaf = leaf, later->at[k].rays = 0;
-  later->at[k].rays |= rays;
-  return true;
-}
-
 struct bundle {
   struct packet packet[PACKETS];
   int packets; /* those that are not empty */
@@ -85,7 +74,8 @@ LANES_INLINE bool ray_charge(struct bundle *b, unsigned lane)
   return false;
 }
 
-/* Defers the leaf for packets all of whose rays start in its slab. Returns the rays to be tried on it now. */
+/* Defers the leaf for packets all of whose rays start in its slab, as long as there is room. Returns the rays to be
+ * tried on it now. */
 LANES_INLINE unsigned bundle_defer(struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
@@ -96,7 +86,13 @@ LANES_INLINE unsigned bundle_defer(struct bundle *b, uint32_t index, unsigned ra
     const unsigned all = (unsigned)ALL_LANES << h * LANES;
     if (others & all) now |= rays & all;
   }
-  return rays != now && later_add(&b->later, index, rays & ~now) ? now : rays;
+  struct later *later = &b->later;
+  unsigned k = 0;
+  while (k < later->count && later->at[k].leaf != index) k++;
+  if (rays == now || k == MOST_LATER) return rays;
+  if (k == later->count) later->at[later->count++].leaf = index, later->at[k].rays = 0;
+  later->at[k].rays |= rays & ~now;
+  return now;
 }
 
 /* ---- what waits ---- */

@@ -37,18 +37,14 @@ static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsig
   bundle_update(b);
 }
 
-/* Those of the rays that may be in the box along a leaf. */
-LANES_INLINE unsigned leaf_passed(const struct bundle *b, const struct oriented_box *box, unsigned rays)
-{
-  if (rays & (rays - 1)) return rays & view_oriented(&b->view, box);
-  return view_oriented_one(&b->view, (unsigned)__builtin_ctz(rays), box) ? rays : 0;
-}
-
-/* leaf_passed for box `index` of the tree, if that is a leaf's. */
+/* Those of the rays that may be in box `index` of the tree: if that is a leaf's, in the box along the leaf. */
 LANES_INLINE unsigned box_passed(const struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
-  return index < model->leaf_count ? leaf_passed(b, &model->oriented[index], rays) : rays;
+  if (index >= model->leaf_count) return rays;
+  const struct oriented_box *box = &model->oriented[index];
+  if (rays & (rays - 1)) return rays & view_oriented(&b->view, box);
+  return view_oriented_one(&b->view, (unsigned)__builtin_ctz(rays), box) ? rays : 0;
 }
 
 static void bundle_try(struct bundle *b, uint32_t index, struct leaf *leaf, const struct model_patch *patch,
