@@ -54,12 +54,13 @@ static void show_refuted(const char *name, const struct trial *trial, const stru
     printf("  truth: t %.17g u %.17g v %.17g patch %u, %.3g floors\n", c->t, c->u, c->v, (unsigned)c->patch, c->off);
 }
 
-/* Whether the answer to a ray alone is as good as that in a packet, which `tally` judges: of the same verdict, and not
- * refuted either. */
+/* Whether the answer to a ray alone is as good as that in a packet, which `tally` judges: the same if it is grazing; of
+ * the same verdict, and not refuted either, if it is certain. */
 static bool fits(const struct hit *alone, const struct hit *packed, struct certifier *certifier, const struct ray *ray)
 {
   struct certificate certificate;
   if (alone->patch != packed->patch || alone->certainty != packed->certainty) return false;
+  if (alone->certainty != CERTAINTY_CERTAIN) return alone->patch == HIT_NONE || alone->t == packed->t;
   certify(certifier, ray, alone, &certificate);
   return certificate.finding <= FINDING_UNDECIDED;
 }
@@ -176,22 +177,26 @@ static void print_count(const char *name, const char *form, uint64_t seed, const
   fflush(stdout);
 }
 
+/* A grazing answer is a guess. One wrong guess in so many answers is none too many. */
+enum { MOST_GUESSED_WRONG = 300 };
+
 static void test_class(void **state)
 {
   const struct situation_class *class = *state;
   const uint64_t seed = effort_seed(class->seed);
   struct asking asking = {.random = {.state = seed + 1}};
-  size_t bad = 0, certain_bad = 0;
+  size_t bad = 0, certain_bad = 0, answers = 0;
   if (!class_wanted(class)) return;
   class_ask_rays(class, FULL_RAYS, LEAST_RAYS, seed, ask, &asking);
   for (int m = 0; m < CLASS_FORMS; m++) {
     print_count(class->name, class_forms[m], seed, &asking.counts[m]);
     certain_bad += refuted(&asking.counts[m], CERTAIN_HIT, CERTAIN_MISS) + asking.counts[m].company;
     bad += refuted(&asking.counts[m], GRAZING_HIT, GRAZING_MISS);
+    answers += sum(&asking.counts[m], 0, VERDICTS - 1, 0, FINDINGS - 1);
   }
   exact_cleanup();
   assert_int_equal(certain_bad, 0);
-  if (!class_told_only(class)) assert_int_equal(bad, 0);
+  if (!class_told_only(class)) assert_true(bad * MOST_GUESSED_WRONG <= answers);
 }
 
 /* Asks rays at one crowd. */

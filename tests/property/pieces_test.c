@@ -192,7 +192,7 @@ TEST(a_root_is_in_every_piece_that_holds_it)
     struct subject s;
     struct sight sight;
     make_subject(&random, &s);
-    pool = (struct pool){room, POOL, 0};
+    pool = (struct pool){room, POOL, 0, 1 << 20};
     assert_true(sight_make(s.P, &s.ray, &pool, &sight));
     bool on = sight.dependent;
     for (int k = 0; k < 4; k++) {

@@ -134,6 +134,9 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
   out->clearance = clearance(model, patch, borders, out);
 }
 
+/* A certain hit has its parameters to this accuracy. */
+#define LARGEST_RADIUS 0x1p-20
+
 /* If ray and normal are nearer to a right angle than this, rounding may have reversed the normal. */
 #define SIDE_SURE 0x1p-40
 
@@ -147,25 +150,15 @@ static void face(double (*P)[4][3], const struct ray *ray, wide u, wide v, doubl
   if (along != 0 && (along > 0) == (same > 0)) vector_scale(-1, normal, normal);
 }
 
-void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
-                    struct hit *out)
+void exact_hit(const struct model *model, const struct ray *ray, const struct exact_root *root, bool sure,
+               struct hit *out)
 {
-  double(*P)[4][3] = model->scene->patches[root->patch].P;
-  if (root->t_error > LAST_PLACES * fabs((double)root->t))
-    (void)place_sharpen(model, ray, false, root); /* or its bounds hold as before */
   const double u = (double)root->u, v = (double)root->v;
   const bool at[4] = {u <= root->radius_u, 1 - u <= root->radius_u, v <= root->radius_v, 1 - v <= root->radius_v};
   unsigned borders = 0;
   for (unsigned k = 0; k < 4; k++) borders |= (unsigned)at[k] << k;
-  /* A certain hit has a place. */
-  sure = sure && exact_root_placed(root);
+  sure = sure && root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
   *out = (struct hit){.certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, .u = u, .v = v};
   answer(model, ray, root->patch, borders, (double)root->t, out);
-  face(P, ray, root->u, root->v, out->normal);
-}
-
-void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe, struct hit *out)
-{
-  *out = (struct hit){.certainty = CERTAINTY_GRAZING, .u = maybe->u, .v = maybe->v};
-  answer(model, ray, maybe->patch, 0, maybe->t, out);
+  face(model->scene->patches[root->patch].P, ray, root->u, root->v, out->normal);
 }

@@ -2,16 +2,17 @@
  *
  * Internal to src/intersect. Compiled once, scalar, without contraction: its answers are the same bits on every
  * processor. Pure; safe on any thread; uses up to 1 MB of stack. To use it, fill in an exact_case and call
- * exact_closest, exact_occluded or exact_all; exact_root_hit and exact_maybe_hit make the answers.
+ * exact_closest, exact_occluded or exact_all; exact_hit makes the answers.
  *
  * The lanes take a root only where double precision leaves no question: the root is proven, strictly inside its patch,
  * strictly within the ray's range, and not next to another one. Everything they leave open comes here as a list of
  * patches. The order of work: judge.c takes them in the order in which the ray meets them; sight.c writes a patch, as the
- * ray sees it, as nets of integers; search.c halves them (piece.c) until each piece has no root or one; judge.c decides
- * what a root means for the answer; all.c and vertex.c count hits.
+ * ray sees it, as nets of integers; search.c halves them (piece.c) until each piece has no root or one; place.c computes a
+ * root to 2^-106 of its patch; judge.c decides what it means for the answer; all.c and vertex.c count hits. A root of the
+ * lanes that is next to another one is not used: its patch is searched.
  *
- * A ray meets a patch in its borders and corners, too. All decisions are exact but these: two roots that the ray meets
- * within 2^-106 of their patches count as met at one t; and what is open when the work is used up is `grazing`.
+ * A ray meets a patch in its borders and corners, too. All decisions are exact except these: two roots that are that near
+ * to each other are one, or are met at one t; and what is open when the work is used up is `grazing`.
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H
@@ -29,7 +30,8 @@ struct exact_region {
   double near;    /* nothing open here begins before this t; set unless all hits are asked for */
 };
 
-/* A proven root, in parameters of the whole patch: the exact ray has exactly one root within the radii. */
+/* A proven root, in parameters of the whole patch: the exact ray has exactly one root within the radii. Or a place that may
+ * be a hit or not. */
 struct exact_root {
   uint32_t patch;
   unsigned borders; /* on which it lies exactly: bits as of geometry/edges.h; the parameter across is then 0 or 1 */
@@ -38,22 +40,6 @@ struct exact_root {
   wide u, v, t;     /* t in units of the scaled direction */
   double radius_u, radius_v; /* absolute */
   double t_error;            /* absolute */
-  double alone[2]; /* the patch has no other root whose parameters both lie within this of its own; 0 if not known */
-  bool sharp;      /* known within 2^-106 of its patch, or as well as can be */
-};
-
-/* A certain hit has its parameters to this accuracy. */
-#define LARGEST_RADIUS 0x1p-20
-
-static inline bool exact_root_placed(const struct exact_root *root)
-{
-  return root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
-}
-
-/* A place that may be a hit or not: a point of a patch, its t, and how far off that t may be. */
-struct exact_maybe {
-  uint32_t patch;
-  double u, v, t, t_error;
 };
 
 /* The most regions of a ray whose nearest hit is asked for; of more, those that begin first are listed. */
@@ -67,11 +53,11 @@ enum exact_kind {
 };
 
 struct exact_found {
-  struct exact_root root; /* of an open one only u, v, t and t_error */
+  struct exact_root root;
   enum exact_kind kind;
   int64_t taken; /* number of the lanes' root that it is; negative: none of theirs */
   int64_t leaf;  /* of a root of the lanes: where they found it */
-  bool tied;     /* made sharp to tell it from another surface's, so its answer must be sharp too */
+  bool tied;     /* another surface is met at its t, so its own t counts, not that of the lanes' hit */
 };
 
 /* A list that grows by memory_grow. Zero-initialise it; memory_free `at`. */
@@ -81,55 +67,45 @@ struct exact_list {
   bool failed; /* memory was short, and something is missing */
 };
 
-/* What is asked. */
+/* The question. */
 struct exact_case {
   const struct model *model;
-  const struct ray *ray;           /* direction scaled to about 1 */
-  const struct exact_root *known;  /* the nearest root that the lanes took; NULL for none */
-  const struct exact_maybe *maybe; /* the same if it is not proven; NULL for none */
-  struct exact_region *regions; /* in any order; the call reorders them. For all hits a patch may stand there twice */
+  const struct ray *ray;          /* direction scaled to about 1 */
+  const struct exact_root *known; /* the nearest root that the lanes took; NULL for none */
+  struct exact_region *regions;   /* in any order; the call reorders them. For all hits a patch may stand there twice */
   size_t region_count;
   double cut_from; /* neither what was left out nor a doubt begins before this t; infinite for none */
-  uint64_t *work;  /* the work done is added, in pieces examined (judge.h) */
+  uint64_t *work;  /* the work done is added, in pieces examined (piece.h) */
   uint64_t limit;  /* no more of it may be done */
 };
 
-enum exact_verdict {
-  EXACT_MISS,
-  EXACT_ROOT, /* the root is the nearest hit */
-  EXACT_MAYBE /* the point may be the nearest hit */
-};
-
 struct exact_decision {
-  enum exact_verdict verdict;
-  bool sure;                /* proven; never so for a maybe */
-  struct exact_root root;   /* set with EXACT_ROOT */
-  bool known;               /* with EXACT_ROOT: it is the case's known one, and alone at its t */
-  struct exact_maybe maybe; /* set with EXACT_MAYBE */
+  bool sure;  /* proven */
+  bool known; /* the answer is the lanes' root, and nothing else is near */
+  bool hit;   /* otherwise: it is `root`, or a miss */
+  struct exact_root root;
 };
 
 /* The nearest hit of the ray. */
 void exact_closest(const struct exact_case *asked, struct exact_decision *out);
 
+/* Computes the root that the lanes took, `known`, to 2^-106 of its patch; *out is the same root if that is not possible.
+ * The case's regions and its limit are not used. */
+void exact_place(const struct exact_case *asked, struct exact_root *out);
+
 /* all.c: finds all hits of the ray. At first *list holds the roots that the lanes took; in the end it holds the hits in
- * their order: roots that count, and open places. `known`, `maybe` and `cut_from` are not used, and the number of
- * regions has no limit. Returns whether the result is proven. */
+ * their order: roots that count, and open places. `known` and `cut_from` are not used, and the number of regions has no
+ * limit. Returns whether the result is proven. */
 bool exact_all(const struct exact_case *asked, struct exact_list *list);
 
 /* all.c: returns false if there was no room. */
 bool exact_list_add(struct exact_list *list, const struct exact_found *found);
 
-/* all.c: by t, then by everything that does not depend on how they came. */
-void exact_list_sort(struct exact_list *list);
-
 /* Whether the ray hits anything, or may do so. */
 bool exact_occluded(const struct exact_case *asked);
 
-/* answer.c: the hit at a proven root, made sharp, or at a point that may be one. t is in units of the scaled
- * direction. */
-void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
-                    struct hit *out);
-void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe,
-                     struct hit *out);
+/* answer.c: the hit at a root, or, not `sure`, at a place that may be one. t is in units of the scaled direction. */
+void exact_hit(const struct model *model, const struct ray *ray, const struct exact_root *root, bool sure,
+               struct hit *out);
 
 #endif

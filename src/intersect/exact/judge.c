@@ -9,9 +9,8 @@ void judge_turn(struct judge *j, uint32_t patch)
 {
   if (j->patch == patch) return;
   j->patch = patch;
-  j->pool = (struct pool){j->room, POOL_LIMBS, 0};
+  j->pool.used = 0;
   j->seen = sight_make(j->asked->model->scene->patches[patch].P, j->asked->ray, &j->pool, &j->sight);
-  judge_spend(j, WORK_SIGHT);
 }
 
 /* The least and the largest t that the root may have. */
@@ -27,69 +26,46 @@ static double most_t(const struct exact_root *root)
   return (double)t < t ? nextafter((double)t, INFINITY) : (double)t;
 }
 
-/* Nothing behind the nearest hit matters, nor anything within the error of the nearest maybe: it would be as
- * doubtful. */
+/* Nothing behind the nearest hit matters, nor behind the nearest maybe: it would be as doubtful. */
 static void set_limit(struct judge *j)
 {
-  double limit = j->asked->ray->t_max;
-  if (j->hit) limit = real_min(limit, most_t(&j->nearest));
-  if (j->doubtful) limit = real_min(limit, j->maybe.t - j->maybe.t_error);
-  if (j->any && j->hit) limit = -INFINITY;
-  j->limit = limit;
+  j->limit = j->asked->ray->t_max;
+  if (j->hit) j->limit = real_min(j->limit, most_t(&j->nearest));
+  if (j->doubtful) j->limit = real_min(j->limit, most_t(&j->maybe));
+  if (j->asks == JUDGE_NEAREST && j->asked->known) j->limit = real_min(j->limit, most_t(j->asked->known));
+  if (j->asks == JUDGE_ANY && j->hit) j->limit = -INFINITY;
 }
 
 /* ---- roots beside each other ---- */
 
-static bool sharpen(struct judge *j, struct exact_root *root)
+/* Whether b, with its radii, is within those of a. */
+static bool within(const struct exact_root *a, const struct exact_root *b)
 {
-  if (root->sharp) return true;
-  judge_spend(j, WORK_SIGHT);
-  return place_sharpen(j->asked->model, j->asked->ray, true, root);
+  return fabs((double)(a->u - b->u)) + b->radius_u <= a->radius_u &&
+         fabs((double)(a->v - b->v)) + b->radius_v <= a->radius_v;
 }
 
-static bool meet(const struct exact_root *a, const struct exact_root *b)
-{
-  return fabs((double)(a->u - b->u)) <= a->radius_u + b->radius_u &&
-         fabs((double)(a->v - b->v)) <= a->radius_v + b->radius_v;
-}
-
-/* Whether all places where b may be are so near to a that no other root is. */
-static bool alone_with(const struct exact_root *a, const struct exact_root *b)
-{
-  return fabs((double)(a->u - b->u)) + a->radius_u + b->radius_u <= a->alone[0] &&
-         fabs((double)(a->v - b->v)) + a->radius_v + b->radius_v <= a->alone[1];
-}
-
-/* Whether both are in the same corner, or at the same pole. */
-static bool one_point(const struct exact_root *a, const struct exact_root *b)
-{
-  return a->borders == b->borders && a->u == b->u && a->v == b->v && a->t_error == b->t_error && a->t == b->t;
-}
-
-bool judge_same(struct judge *j, struct exact_root *a, struct exact_root *b, bool *sure)
+bool judge_same(struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
   if (a->patch != b->patch) return false;
-  for (int tries = 0; tries < 2; tries++) {
-    if (one_point(a, b)) return true;
-    if (!meet(a, b)) return false;
-    if (alone_with(a, b) || alone_with(b, a)) return true;
-    (void)sharpen(j, a), (void)sharpen(j, b);
-  }
-  *sure = false;
+  if (within(a, b) || within(b, a)) return true; /* there is one root in there */
+  if (!judge_sharp(a) || !judge_sharp(b) || fabs((double)(a->u - b->u)) > a->radius_u + b->radius_u ||
+      fabs((double)(a->v - b->v)) > a->radius_v + b->radius_v)
+    return false;
+  /* Half the margin of a piece, 2^-70, from a root there is no other one of the same pair of polynomials. */
+  if (a->borders != b->borders) judge_undecided(j, real_min(least_t(a), least_t(b)));
   return true;
 }
 
 /* Relative to t: two roots nearer to each other than this count as met at one t, if they are known so well. */
 #define ONE_T 0x1p-60
 
-int judge_compare(struct judge *j, struct exact_root *a, struct exact_root *b, bool *sure)
+int judge_compare(struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
-  for (int tries = 0; tries < 2; tries++) {
-    const wide apart = a->t - b->t, error = (wide)a->t_error + b->t_error;
-    if (wide_abs(apart) > error) return apart < 0 ? -1 : 1;
-    if (tries == 0) (void)sharpen(j, a), (void)sharpen(j, b);
-    else if (!(a->sharp && b->sharp) && error > ONE_T * wide_abs(a->t)) *sure = false;
-  }
+  const wide apart = a->t - b->t, error = (wide)a->t_error + b->t_error;
+  if (wide_abs(apart) > error) return apart < 0 ? -1 : 1;
+  if (!(judge_sharp(a) && judge_sharp(b)) && error > ONE_T * wide_abs(a->t))
+    judge_undecided(j, real_min(least_t(a), least_t(b)));
   return 0;
 }
 
@@ -102,63 +78,39 @@ bool judge_stands_before(const struct exact_root *a, const struct exact_root *b)
 
 /* ---- what is found ---- */
 
-/* Whether the list has the root already. */
-static bool listed(struct judge *j, struct exact_root *root)
-{
-  for (size_t k = 0; k < j->list->count; k++) {
-    struct exact_found *found = &j->list->at[k];
-    bool sure = true;
-    if (found->kind == EXACT_OPEN || !judge_same(j, &found->root, root, &sure)) continue;
-    j->doubt |= !sure;
-    if (root->borders && !found->root.borders) found->root = *root, found->kind = EXACT_BORDER;
-    return true;
-  }
-  return false;
-}
-
 void judge_root(struct judge *j, const struct exact_root *root)
 {
-  struct exact_root here = *root;
-  bool sure = true;
-  if (j->all) {
-    const struct exact_found found = {.root = here, .kind = here.borders ? EXACT_BORDER : EXACT_INSIDE, .taken = -1};
-    if (!listed(j, &here)) (void)exact_list_add(j->list, &found); /* on failure, list->failed is set */
+  if (j->asks == JUDGE_ALL) {
+    const struct exact_found found = {.root = *root, .kind = root->borders ? EXACT_BORDER : EXACT_INSIDE, .taken = -1};
+    (void)exact_list_add(j->list, &found); /* on failure, list->failed is set */
     return;
   }
-  if (j->hit && judge_same(j, &j->nearest, &here, &sure)) return;
-  const int order = j->hit ? judge_compare(j, &j->nearest, &here, &sure) : 1;
-  if (!sure) judge_undecided(j, real_min(least_t(&j->nearest), least_t(&here)));
-  j->known &= order < 0; /* of two at one t either may be the one that the lanes come to */
-  if (order > 0 || (order == 0 && judge_stands_before(&here, &j->nearest))) j->nearest = here, j->hit = true;
+  if (j->asks == JUDGE_KNOWN && !within(j->asked->known, root)) return;
+  if (j->hit && judge_same(j, &j->nearest, root)) return;
+  const int order = j->hit ? judge_compare(j, &j->nearest, root) : 1;
+  if (order >= 0) j->tied = order == 0;
+  if (order > 0 || (order == 0 && judge_stands_before(root, &j->nearest))) j->nearest = *root, j->hit = true;
   set_limit(j);
 }
 
 /* The most open places of one ray that are listed; a surface along the ray may make hundreds. */
 enum { LISTED_OPEN = 64 };
 
-static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double from)
+void judge_maybe(struct judge *j, double u, double v, double t, double t_error, double from)
 {
   const struct ray *ray = j->asked->ray;
-  if (maybe->t < ray->t_min - maybe->t_error || maybe->t > ray->t_max + maybe->t_error) return;
+  const struct exact_root maybe = {.patch = j->patch, .u = u, .v = v, .t = t, .t_error = t_error};
+  if (t < ray->t_min - t_error || t > ray->t_max + t_error) return;
   judge_undecided(j, from);
-  if (!(maybe->t > ray->t_min + maybe->t_error && maybe->t < ray->t_max)) return;
-  if (j->all) {
-    const struct exact_found found = {
-      .root = {.patch = maybe->patch, .u = maybe->u, .v = maybe->v, .t = maybe->t, .t_error = maybe->t_error},
-      .kind = EXACT_OPEN,
-      .taken = -1};
+  if (!(t > ray->t_min + t_error && t < ray->t_max)) return;
+  if (j->asks == JUDGE_ALL) {
+    const struct exact_found found = {.root = maybe, .kind = EXACT_OPEN, .taken = -1};
     if (j->list->count < LISTED_OPEN) (void)exact_list_add(j->list, &found);
     return;
   }
-  if (j->doubtful && !(maybe->t < j->maybe.t || (maybe->t == j->maybe.t && maybe->patch < j->maybe.patch))) return;
-  j->maybe = *maybe, j->doubtful = true;
+  if (j->doubtful && (j->maybe.t < t || (j->maybe.t == t && j->maybe.patch <= j->patch))) return;
+  j->maybe = maybe, j->doubtful = true;
   set_limit(j);
-}
-
-void judge_maybe(struct judge *j, double u, double v, double t, double t_error, double from)
-{
-  const struct exact_maybe maybe = {j->patch, u, v, t, t_error};
-  keep_maybe(j, &maybe, from);
 }
 
 void judge_left(struct judge *j, double near, double far)
@@ -194,12 +146,12 @@ static size_t sort_regions(struct exact_region regions[], size_t count, bool all
 
 /* A region gets its share of the work that is left, or this much, so that one in which the ray lies leaves some for the
  * others: what a ray next to a tangency takes. */
-enum { LEAST_SHARE = 512 };
+enum { LEAST_SHARE = 512 * WORK_PIECE };
 
 /* Whether the patch is met where the known root is, which is of an earlier patch of the same surface. */
 static bool is_met_behind(const struct judge *j, uint32_t patch)
 {
-  const struct exact_root *known = j->all ? NULL : j->asked->known;
+  const struct exact_root *known = j->asks == JUDGE_NEAREST ? j->asked->known : NULL;
   const uint32_t *surface = j->asked->model->surface;
   return known && surface && surface[patch] != 0 && surface[patch] == surface[known->patch] && known->patch < patch;
 }
@@ -208,19 +160,16 @@ static bool is_met_behind(const struct judge *j, uint32_t patch)
 static void search(struct judge *j)
 {
   struct exact_region *regions = j->asked->regions;
-  const size_t count = sort_regions(regions, j->asked->region_count, j->all);
-  for (size_t k = 0; k < count && (j->all || regions[k].near <= j->limit); k++) {
+  const bool all = j->asks == JUDGE_ALL;
+  const size_t known = j->asks == JUDGE_NEAREST && j->asked->known; /* its patch may be searched, too */
+  const size_t count = sort_regions(regions, j->asked->region_count, all);
+  for (size_t k = 0; k < count && (all || regions[k].near <= j->limit); k++) {
     if (is_met_behind(j, regions[k].patch)) continue;
-    const int all = j->work, fair = (int)((size_t)real_max(all, 0) / (count - k));
-    const int share = fair > LEAST_SHARE ? fair : all < LEAST_SHARE ? all : LEAST_SHARE;
-    if (all <= 0) {
-      judge_left(j, regions[k].near, INFINITY);
-      continue;
-    }
-    j->work = share;
-    judge_turn(j, regions[k].patch);
-    exact_search(j, regions[k].near);
-    j->work = all - share + j->work;
+    const int64_t left = j->pool.work, fair = left / (int64_t)(count - k + known);
+    const int64_t share = fair > LEAST_SHARE ? fair : left < LEAST_SHARE ? left : LEAST_SHARE;
+    j->pool.work = share;
+    exact_search(j, regions[k].patch, regions[k].near);
+    j->pool.work += left - share;
   }
 }
 
@@ -228,32 +177,56 @@ static void search(struct judge *j)
 
 void judge_run(struct judge *j, const struct exact_case *asked, enum judge_asks asks, struct exact_list *list)
 {
-  j->asked = asked, j->list = list, j->all = asks == JUDGE_ALL, j->any = asks == JUDGE_ANY;
-  j->hit = j->known = j->doubtful = j->cut_short = j->doubt = false;
-  j->work = (int)asked->limit, j->undecided = INFINITY, j->patch = UINT32_MAX;
-  if (!j->all) {
-    j->undecided = asked->cut_from;
-    if (asked->known) j->nearest = *asked->known, j->hit = j->known = true;
-  }
+  j->asked = asked, j->asks = asks, j->list = list;
+  j->hit = j->tied = j->doubtful = j->cut_short = false;
+  j->pool = (struct pool){j->room, POOL_LIMBS, 0, (int64_t)asked->limit * WORK_PIECE};
+  j->undecided = asks == JUDGE_ALL ? INFINITY : asked->cut_from, j->patch = UINT32_MAX;
   set_limit(j);
-  if (!j->all && asked->maybe) keep_maybe(j, asked->maybe, asked->maybe->t);
   search(j);
 }
 
+void judge_end(const struct judge *j) { *j->asked->work += j->asked->limit - (uint64_t)(j->pool.work / WORK_PIECE); }
+
 void exact_closest(const struct exact_case *asked, struct exact_decision *out)
 {
+  const struct exact_root *known = asked->known;
+  bool theirs = false; /* the answer is the known root */
   struct judge j;
   judge_run(&j, asked, JUDGE_NEAREST, NULL);
-  if (j.hit && j.undecided <= most_t(&j.nearest)) (void)sharpen(&j, &j.nearest);
-  const double to = j.hit ? most_t(&j.nearest) : INFINITY;
-  *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = j.undecided > to || j.undecided == INFINITY};
-  if (j.doubtful && !(j.hit && j.nearest.t <= j.maybe.t)) out->verdict = EXACT_MAYBE, out->maybe = j.maybe;
-  else if (j.hit) out->verdict = EXACT_ROOT, out->root = j.nearest, out->known = j.known;
+  if (known && !(j.hit && most_t(&j.nearest) < least_t(known))) { /* nothing is clearly before it */
+    theirs = asked->model->unproven || (!j.hit && j.undecided > most_t(known));
+    if (!theirs && !(j.hit && judge_same(&j, known, &j.nearest))) exact_search(&j, known->patch, least_t(known));
+    theirs |= !j.hit || (!j.tied && judge_same(&j, known, &j.nearest));
+    if (!j.hit) j.nearest = *known, j.hit = true;
+  }
+  const bool maybe = j.doubtful && !(j.hit && least_t(&j.nearest) <= most_t(&j.maybe));
+  out->sure = !maybe && (j.undecided == INFINITY || (j.hit && j.undecided > most_t(&j.nearest)));
+  out->known = theirs && !maybe, out->hit = j.hit || maybe, out->root = maybe ? j.maybe : j.nearest;
+  judge_end(&j);
+}
+
+/* What a search for a root that is there may take. The ray's budget does not count: it may depend on its neighbours. */
+enum { PLACE_LIMIT = 8192 };
+
+void exact_place(const struct exact_case *asked, struct exact_root *out)
+{
+  struct ray ray = *asked->ray;
+  struct exact_case here = *asked;
+  struct exact_region region = {asked->known->patch, least_t(asked->known)};
+  struct judge j;
+  ray.t_min = real_max(ray.t_min, nextafter(region.near, -INFINITY));
+  ray.t_max = real_min(ray.t_max, nextafter(most_t(asked->known), INFINITY));
+  here.ray = &ray, here.regions = &region, here.region_count = 1, here.cut_from = INFINITY;
+  here.limit = PLACE_LIMIT;
+  judge_run(&j, &here, JUDGE_KNOWN, NULL);
+  *out = j.hit ? j.nearest : *asked->known;
+  judge_end(&j);
 }
 
 bool exact_occluded(const struct exact_case *asked)
 {
   struct judge j;
   judge_run(&j, asked, JUDGE_ANY, NULL);
+  judge_end(&j);
   return j.hit || j.doubtful || j.cut_short;
 }

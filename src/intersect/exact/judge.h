@@ -8,28 +8,28 @@
 #include "intersect/exact/exact.h"
 #include "intersect/exact/sight.h"
 
-/* Work is counted in pieces examined, some 1,500 instructions each; one more for each WORK_LIMBS products of limbs of
- * the numbers of one that is made exact. Writing a patch as the ray sees it counts as WORK_SIGHT of them, and so does
- * zooming in on a root; looking for curves, WORK_CURVES. */
-enum { WORK_LIMBS = 64, WORK_SIGHT = 8, WORK_CURVES = 40 };
-
 /* Memory for nets, in limbs: 256 KB, of which a search of rays with ordinary numbers needs a tenth. */
 enum { POOL_LIMBS = 1 << 15 };
 
+enum judge_asks {
+  JUDGE_NEAREST, /* the nearest hit */
+  JUDGE_KNOWN,   /* the lanes' root; no other counts */
+  JUDGE_ANY,
+  JUDGE_ALL
+};
+
 struct judge {
   const struct exact_case *asked;
-  bool all, any;           /* all hits are asked for, or any; else the nearest */
+  enum judge_asks asks;
   struct exact_list *list; /* gets all that is found, if all hits are asked for */
-  bool hit;                /* `nearest` is set: the nearest of the certain roots */
+  bool hit;                /* `nearest` is set: the nearest of the roots */
   struct exact_root nearest;
-  bool known;    /* which is the one that the lanes took, and alone at its t */
+  bool tied;     /* another root is met at its t */
   bool doubtful; /* `maybe` is set: the nearest of the places that may be hits */
-  struct exact_maybe maybe;
+  struct exact_root maybe;
   bool cut_short;   /* something is left for want of work, beyond the ray's start */
-  bool doubt;       /* any, if all hits are asked for */
   double undecided; /* lower bound on t of all that may be a hit, and is not known to be one; infinite for none */
   double limit;     /* nothing beyond this t matters */
-  int work;         /* still to be spent */
   /* of the current patch */
   uint32_t patch;
   bool seen; /* `sight` is set: its numbers are not too long */
@@ -38,32 +38,19 @@ struct judge {
   limb room[POOL_LIMBS];
 };
 
-/* Takes so much of the work. */
-static inline void judge_spend(struct judge *j, int work)
-{
-  j->work -= work;
-  *j->asked->work += (uint64_t)work;
-}
-
-enum judge_asks { JUDGE_NEAREST, JUDGE_ANY, JUDGE_ALL };
-
 /* Starts the case, sets all of j but its room, and searches the case's regions. `list` only if all hits are asked
  * for. */
 void judge_run(struct judge *j, const struct exact_case *asked, enum judge_asks asks, struct exact_list *list);
 
+/* Ends the case: adds the work that it took. */
+void judge_end(const struct judge *j);
+
 /* Makes the patch the current one. */
 void judge_turn(struct judge *j, uint32_t patch);
 
-/* search.c: reports every root of the current patch that is nearer than `limit`, and every place that cannot be decided.
- * All of them begin at `near` or behind. */
-void exact_search(struct judge *j, double near);
-
-/* A t as near as this, relatively, rounds to a double next to it. */
-#define LAST_PLACES 0x1p-58
-
-/* place.c: makes the root sharp, or, unless it is to be the `sharpest`, its t right to the last places. Returns false if
- * its place could not be improved. */
-bool place_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root);
+/* search.c: reports every root of the patch that is nearer than `limit`, and every place that cannot be decided. All of
+ * them begin at `near` or behind. */
+void exact_search(struct judge *j, uint32_t patch, double near);
 
 /* ---- what a search tells of the current patch ---- */
 
@@ -79,17 +66,22 @@ void judge_left(struct judge *j, double near, double far);
 /* Something beginning there is left undecided. */
 static inline void judge_undecided(struct judge *j, double near)
 {
-  j->doubt |= j->all;
   if (!(near >= j->undecided)) j->undecided = near;
 }
 
-/* ---- roots beside each other; both are sharpened if needed ---- */
+/* Whether a root is known as well as can be: within 2^-106 of its patch. */
+static inline bool judge_sharp(const struct exact_root *root)
+{
+  return root->radius_u <= 0x1p-106 && root->radius_v <= 0x1p-106;
+}
 
-/* Whether the two are one root of one patch. *sure is cleared if that cannot be told; then they count as one. */
-bool judge_same(struct judge *j, struct exact_root *a, struct exact_root *b, bool *sure);
+/* ---- roots beside each other; what cannot be told is noted as undecided ---- */
 
-/* -1 or 1: a is met before or behind b; 0: both at one t. *sure is cleared if that cannot be told. */
-int judge_compare(struct judge *j, struct exact_root *a, struct exact_root *b, bool *sure);
+/* Whether the two are known to be one root of one patch. */
+bool judge_same(struct judge *j, const struct exact_root *a, const struct exact_root *b);
+
+/* -1 or 1: a is met before or behind b; 0: both at one t, as far as is known. */
+int judge_compare(struct judge *j, const struct exact_root *a, const struct exact_root *b);
 
 /* Which of two roots at one t comes first: the one of the earlier patch, or, where a patch meets itself, that of
  * smaller parameters. */

@@ -35,7 +35,7 @@ limb *pool_net(struct pool *pool, int limbs)
 {
   limb *net = pool->at + pool->used;
   if (limbs > PIECE_LIMBS_MAX || pool->used + 16 * (size_t)limbs > pool->room) return NULL;
-  pool->used += 16 * (size_t)limbs;
+  pool->used += 16 * (size_t)limbs, pool->work -= work_of_net(limbs);
   return net;
 }
 
@@ -320,12 +320,6 @@ void piece_depths(const struct piece *piece, double *least, double *most)
   /* the start, the sum, and the differences above */
   const double slack = 4 * UNIT_ROUNDOFF * (fabs(piece->start) + real_max(-low, high));
   *least = piece->start + low - slack, *most = piece->start + high + slack;
-}
-
-bool piece_depth_grows(const struct piece *piece, int axis)
-{
-  const double(*w)[4] = piece->value[NET_W];
-  return axis == 0 ? w[3][0] + w[3][3] > w[0][0] + w[0][3] : w[0][3] + w[3][3] > w[0][0] + w[3][0];
 }
 
 wide piece_depth(const struct piece *piece, const double at[2], double radius, double *error, bool *exact)

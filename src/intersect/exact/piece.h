@@ -22,11 +22,17 @@
  * 1e-100 and 1e100 take 24 at first. */
 enum { PIECE_LIMBS_MAX = 64 };
 
-/* Memory for nets, used as a stack. */
+/* Memory for nets, used as a stack; and the work that is left, in quarters of what it takes to examine a piece in doubles,
+ * some 1,500 instructions. */
 struct pool {
   limb *at;
   size_t room, used;
+  int64_t work;
 };
+enum { WORK_PIECE = 4 };
+
+/* What it takes to make a net of numbers so long, and to multiply it. */
+static inline int work_of_net(int limbs) { return limbs + limbs * limbs / 8; }
 
 enum { NET_A, NET_B, NET_W, NETS };
 
@@ -92,7 +98,8 @@ int piece_longer(const struct piece *piece);
 
 enum piece_verdict {
   PIECE_EMPTY, /* no root in the piece, its borders included */
-  PIECE_ROOT,  /* exactly one root within PIECE_MARGIN of it, and it is in the piece or within its radius of it */
+  PIECE_ROOT,  /* exactly one root within PIECE_MARGIN of it; it is in the piece or within its radius of it, which is no
+                * more than half of that */
   PIECE_OPEN
 };
 
@@ -115,9 +122,6 @@ enum piece_verdict piece_root(struct piece *piece, bool fine, struct pool *pool,
  * it is off. If that is 0 and *exact is set, w is this number; if *exact is not set, it is larger by less than the last
  * place. */
 wide piece_depth(const struct piece *piece, const double at[2], double radius, double *error, bool *exact);
-
-/* Whether w grows along that axis, more or less. */
-bool piece_depth_grows(const struct piece *piece, int axis);
 
 /* Whether w changes all along every curve on which a (b, if a is 0 all over) is zero: their Jacobian is not singular. */
 bool piece_depth_turns(struct piece *piece, struct pool *pool);

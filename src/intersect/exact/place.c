@@ -1,8 +1,8 @@
 /* Where a root lies: in the patch or on its borders, within the ray's range or not, and how far along the ray.
  *
- * A root is zoomed in on until it is known on which side of a border, and of the ray's start and end, it lies. Whether it
- * lies exactly on one of them is decided by equality: in a corner of a piece both polynomials are zero; on a border they
- * have a common zero (sight.h); t of a flat patch is the same all over it.
+ * A root is zoomed in on until it is sharp, and it is known on which side of a border, and of the ray's start and end, it
+ * lies. Whether it lies exactly on one of them is decided by equality: in a corner of a piece both polynomials are zero;
+ * on some borders one is zero all along (sight.h); t of a flat patch is the same all over it.
  */
 #include "intersect/exact/place.h"
 
@@ -12,10 +12,7 @@
 #include "geometry/edges.h"
 
 /* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
-enum { ZOOMS = 6 };
-
-/* A root is sharp if it is known so well, as a part of the patch. */
-#define SHARP 0x1p-106
+enum { ZOOMS = 4 };
 
 /* ---- along the ray ---- */
 
@@ -71,17 +68,6 @@ static bool in_corner(struct placing *p)
   return true;
 }
 
-/* Whether the root is the common zero of the two polynomials on that border: then it is exactly there. */
-static bool on_border(const struct placing *p, int border)
-{
-  const struct waiting *from = p->from;
-  wide at;
-  if (from->border >= 0 || !sight_common(&p->j->sight.plane, border, &at)) return false;
-  const int along = border < 2;
-  const wide here = (at - from->piece.low[along]) / from->piece.size[along];
-  return here >= -PIECE_MARGIN / 2 && here <= 1 + PIECE_MARGIN / 2; /* there is one root in all that */
-}
-
 /* Sets p->on. Returns whether the root is in the patch. */
 static enum place_within in_patch(struct placing *p)
 {
@@ -98,8 +84,6 @@ static enum place_within in_patch(struct placing *p)
     p->on |= unknown;
     return PLACE_IN;
   }
-  for (int border = 0; border < 4; border++)
-    if (unknown >> border & 1 && on_border(p, border)) p->on |= 1u << border, unknown &= ~(1u << border);
   return unknown ? PLACE_UNKNOWN : PLACE_IN;
 }
 
@@ -146,126 +130,63 @@ static int border_side(const struct placing *p)
 static struct exact_root found_root(const struct placing *p)
 {
   struct exact_root out = {.patch = p->j->patch, .borders = p->on};
-  double radius[2];
   wide at[2];
+  double radius[2];
   for (int k = 0; k < 2; k++) {
     at[k] = p->piece.low[k] + p->piece.size[k] * p->root.at[k];
     radius[k] = (double)p->piece.size[k] * p->root.radius + (double)(4 * WIDE_ROUNDOFF);
-    const wide first = (at[k] - p->from->piece.low[k]) / p->from->piece.size[k];
-    out.alone[k] = (double)p->from->piece.size[k] * (PIECE_MARGIN + (double)(first < 0.5 ? first : 1 - first));
-    if (p->from->border >= 0 && p->j->sight.border[p->from->border].border / 2 == k) out.alone[k] = 0;
     for (int end = 0; end < 2; end++)
       if (p->on >> (2 * k + end) & 1) at[k] = end, radius[k] = 0;
   }
   out.u = at[0], out.v = at[1], out.radius_u = radius[0], out.radius_v = radius[1];
-  out.sharp = p->corner || (radius[0] <= SHARP && radius[1] <= SHARP);
   out.t = p->depth.w / p->j->sight.along;
   out.t_error = p->depth.error / fabs(p->j->sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(out.t));
   return out;
 }
 
+/* Reports a root of which nothing better will be known. */
+static void report(const struct placing *p, enum place_within inside, enum place_within within, bool touched)
+{
+  struct judge *j = p->j;
+  struct exact_root found = found_root(p);
+  const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
+  if (within == PLACE_UNKNOWN) {
+    judge_undecided(j, from);
+  } else if (inside == PLACE_UNKNOWN || (touched && !p->on && j->asks == JUDGE_ALL)) {
+    judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
+  } else {
+    if (p->on) found.side = border_side(p);
+    judge_root(j, &found);
+  }
+}
+
 void place_root(struct judge *j, const struct waiting *it, const struct piece_root *root)
 {
   const size_t before = j->pool.used;
-  const bool touched = root->radius == 0;
-  struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = touched};
+  const bool touched = root->turn == 0;
+  struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
   for (int zooms = 0;; zooms++) {
+    struct piece closer;
+    struct piece_root next;
     if (!piece_exact(&p.piece, &j->pool)) {
       judge_undecided(j, it->near);
       break;
     }
-    if (p.corner) p.corner = false, (void)in_corner(&p);
+    if (p.corner) (void)in_corner(&p);
     else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
     const enum place_within inside = in_patch(&p), within = inside == PLACE_OUT ? PLACE_OUT : in_range(&p);
     if (inside == PLACE_OUT || within == PLACE_OUT) break;
-    struct exact_root found = found_root(&p);
-    if (inside == PLACE_IN && within == PLACE_IN && (!p.on || found.sharp)) {
-      if (p.on) found.side = border_side(&p);
-      if (touched && !p.on && j->all)
-        judge_maybe(j, (double)found.u, (double)found.v, (double)found.t, found.t_error, (double)found.t);
-      else judge_root(j, &found);
-      break;
-    }
-    struct piece closer;
-    judge_spend(j, WORK_SIGHT);
+    const struct exact_root found = found_root(&p);
     enum piece_verdict verdict = PIECE_OPEN;
-    if (zooms < ZOOMS && zoom(&p.piece, &p.root, &j->pool, &closer))
-      verdict = piece_root(&closer, true, &j->pool, &p.root);
+    if (zooms < ZOOMS && !(inside == PLACE_IN && within == PLACE_IN && judge_sharp(&found)) &&
+        zoom(&p.piece, &p.root, &j->pool, &closer))
+      verdict = piece_root(&closer, true, &j->pool, &next);
     if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
     if (verdict == PIECE_OPEN) {
-      const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
-      if (within == PLACE_UNKNOWN) judge_undecided(j, from);
-      else judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
+      report(&p, inside, within, touched);
       break;
     }
-    p.piece = closer;
+    p.piece = closer, p.root = next;
   }
   j->pool.used = before;
-}
-
-/* ---- sharp roots ---- */
-
-/* The part of the patch within `far` of the root in u and v, or within eight times the distance to which its place is
- * known. False if that is all of it, or there is no room. */
-static bool part_about(struct piece *piece, const struct exact_root *root, const double far[2], struct pool *pool,
-                       struct piece *out)
-{
-  const double at[2] = {(double)root->u, (double)root->v}, radius[2] = {root->radius_u, root->radius_v};
-  double box[2][2];
-  for (int k = 0; k < 2; k++) {
-    const double here = real_max(far[k], 8 * radius[k]);
-    if (!(here < 0.5)) return false;
-    box[k][0] = at[k] - here, box[k][1] = at[k] + here;
-  }
-  return piece_box(piece, box, pool, out);
-}
-
-/* How far from a root the patch is cut, in turns, until the certificate holds: if it is not known how far the root is
- * alone, or where that does not do. */
-static const double cuts[] = {0x1p-8, 0x1p-20, 0x1p-32, 0x1p-44, 0x1p-56};
-enum { CUTS = sizeof cuts / sizeof *cuts };
-
-bool place_sharpen(const struct model *model, const struct ray *ray, bool sharpest, struct exact_root *root)
-{
-  double(*P)[4][3] = model->scene->patches[root->patch].P;
-  limb room[POOL_LIMBS];
-  struct pool pool = {room, POOL_LIMBS, 0};
-  struct sight sight;
-  struct piece piece, closer;
-  struct piece_root found;
-  bool alone = false;
-  if (root->sharp) return true;
-  for (int exchanged = 0; exchanged < 2 && !alone; exchanged++) { /* next to a pole, the pair is exchanged */
-    pool.used = 0;
-    if (!(exchanged ? sight_make(P, ray, &pool, &sight) : sight_plane(P, ray, &pool, &sight))) return false;
-    const size_t before = pool.used;
-    for (int n = root->alone[0] > 0 && root->alone[1] > 0 ? -1 : 0; n < CUTS && !alone; n++) {
-      const double far[2] = {n < 0 ? root->alone[0] : cuts[n], n < 0 ? root->alone[1] : cuts[n]};
-      pool.used = before;
-      alone = part_about(exchanged ? &sight.off : &sight.plane, root, far, &pool, &piece) &&
-              piece_exact(&piece, &pool) && piece_root(&piece, true, &pool, &found) == PIECE_ROOT;
-    }
-  }
-  if (!alone) return false;
-  for (int k = 0; k < 2; k++)
-    root->alone[k] = (double)piece.size[k] * (PIECE_MARGIN + (found.at[k] < 0.5 ? found.at[k] : 1 - found.at[k]));
-  double error;
-  bool exact;
-  for (int n = 0; piece_exact(&piece, &pool); n++) {
-    const wide w = piece_depth(&piece, found.at, found.radius, &error, &exact);
-    root->sharp = found.radius * (double)wide_max(piece.size[0], piece.size[1]) <= SHARP;
-    root->t = w / sight.along;
-    root->t_error = error / fabs(sight.along) + (double)(8 * WIDE_ROUNDOFF * wide_abs(root->t));
-    if (n == ZOOMS || root->sharp || (!sharpest && root->t_error <= LAST_PLACES * fabs((double)root->t))) break;
-    if (!zoom(&piece, &found, &pool, &closer) || piece_root(&closer, true, &pool, &found) != PIECE_ROOT) break;
-    piece = closer;
-  }
-  wide *at[2] = {&root->u, &root->v};
-  double *radius[2] = {&root->radius_u, &root->radius_v};
-  for (int k = 0; k < 2; k++) {
-    if (root->borders >> (2 * k) & 3) continue;
-    *at[k] = piece.low[k] + piece.size[k] * found.at[k];
-    *radius[k] = (double)piece.size[k] * found.radius + (double)(4 * WIDE_ROUNDOFF);
-  }
-  return true;
 }

@@ -306,8 +306,8 @@ enum piece_verdict piece_root(struct piece *piece, bool fine, struct pool *pool,
   newton(row, along, contraction, out);
   double outside = 0;
   for (int k = 0; k < 2; k++) outside = real_max(outside, real_max(-out->at[k], out->at[k] - 1));
-  if (!(outside + out->radius <= PIECE_MARGIN)) return PIECE_OPEN;
   if (outside > out->radius) return PIECE_EMPTY;
+  if (!(out->radius <= PIECE_MARGIN / 2)) return PIECE_OPEN;
   out->turn = along[0] > 0 ? 1 : -1;
   return PIECE_ROOT;
 }

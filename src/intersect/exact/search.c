@@ -57,13 +57,22 @@ static bool corner_alone(struct judge *j, const struct piece *piece, int u, int 
   return false;
 }
 
+/* The sign of the Jacobian in such a corner of an exact piece; 0 if it is not known. */
+static int corner_turn(const struct piece *piece, int u, int v)
+{
+  const double(*a)[4] = piece->value[NET_A], (*b)[4] = piece->value[NET_B];
+  const int beside_u = u ? 2 : 1, beside_v = v ? 2 : 1;
+  const double minor = a[beside_u][v] * b[u][beside_v] - a[u][beside_v] * b[beside_u][v];
+  return fabs(minor) <= 8 * PIECE_ERROR ? 0 : (minor > 0) == (u == v) ? 1 : -1;
+}
+
 /* Decides a piece with a root in one of its corners. */
 static bool decide_corner(struct judge *j, struct waiting *it)
 {
   for (int corner = 0; corner < 4; corner++) {
     const int u = corner / 2, v = corner % 2;
     if (!piece_corner_root(&it->piece, u, v, &j->pool) || !corner_alone(j, &it->piece, 3 * u, 3 * v)) continue;
-    const struct piece_root root = {.at = {u, v}, .radius = 0};
+    const struct piece_root root = {.at = {u, v}, .radius = 0, .turn = corner_turn(&it->piece, 3 * u, 3 * v)};
     place_root(j, it, &root);
     return true;
   }
@@ -87,8 +96,7 @@ static bool gives_up(struct judge *j, const struct waiting *it)
  * them begins within it, and those that begin on the patch's borders are found there. */
 static bool decide_curves(struct judge *j, struct waiting *it)
 {
-  j->doubt |= j->all;
-  judge_spend(j, WORK_CURVES);
+  if (j->asks == JUDGE_ALL) judge_undecided(j, it->near);
   return (it->near > j->asked->ray->t_min && piece_depth_turns(&it->piece, &j->pool)) || gives_up(j, it);
 }
 
@@ -107,13 +115,6 @@ static bool decide(struct judge *j, struct waiting *it, double box[2][2])
 static bool beyond(const struct judge *j, const struct waiting *it)
 {
   return it->near > j->limit || it->far < j->asked->ray->t_min;
-}
-
-/* What it takes to make a piece exact. */
-static int work_of(const struct piece *piece)
-{
-  const int limbs = piece->limbs[NET_A] + piece->limbs[NET_B] + piece->limbs[NET_W];
-  return 1 + limbs * limbs / WORK_LIMBS; /* rows of the Jacobian are products */
 }
 
 /* A box shorter than this both ways, as a part of the piece, is cut out rather than the piece halved. A choice of speed,
@@ -154,21 +155,20 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
   return count;
 }
 
-/* Divides the piece: the part that holds the box, or its halves, the one that begins first last. Returns how many of them
+/* Divides the piece: the part that holds the box, or its halves. Returns how many of them
  * may hold a root, or -1 if there was no room. */
 static int divide(struct judge *j, struct waiting *it, const double box[2][2], struct waiting out[PARTS_MAX])
 {
   struct piece part[PARTS_MAX];
   int axis = piece_longer(&it->piece), count = 0, parts = divide_at_simple(j, it, box, part);
-  if (parts == 0 && real_max(box[0][1] - box[0][0], box[1][1] - box[1][0]) < BOX_LENGTH) {
+  const double length[2] = {box[0][1] - box[0][0], box[1][1] - box[1][0]};
+  if (parts == 0 && real_max(length[0], length[1]) < BOX_LENGTH && length[0] * it->piece.size[0] >= LEAST_SIZE &&
+      length[1] * it->piece.size[1] >= LEAST_SIZE) {
     parts = piece_box(&it->piece, box, &j->pool, &part[0]) ? 1 : -1;
   } else if (parts == 0) {
     if (it->piece.size[axis] <= LEAST_SIZE) axis = 1 - axis;
-    const bool grows = piece_depth_grows(&it->piece, axis) == (j->sight.along > 0);
-    for (; parts >= 0 && parts < 2; parts++) {
-      const limb from = (parts == 0) == grows;
-      if (!piece_part(&it->piece, axis, from, from + 1, 1, &j->pool, &part[parts])) parts = -2;
-    }
+    for (; parts >= 0 && parts < 2; parts++)
+      if (!piece_part(&it->piece, axis, (limb)parts, (limb)parts + 1, 1, &j->pool, &part[parts])) parts = -2;
   }
   for (int h = 0; h < parts; h++) {
     struct waiting next = {.piece = part[h], .keep = j->pool.used, .border = it->border};
@@ -182,13 +182,11 @@ static void search_run(struct judge *j, struct waiting waiting[], int count)
 {
   while (count > 0) {
     struct waiting it = waiting[--count], part[PARTS_MAX];
-    const bool exact = piece_is_exact(&it.piece);
     double box[2][2];
     j->pool.used = it.keep;
-    judge_spend(j, 1);
+    j->pool.work -= WORK_PIECE;
     if (beyond(j, &it) || decide(j, &it, box)) continue;
-    if (!exact && piece_is_exact(&it.piece)) judge_spend(j, work_of(&it.piece));
-    const int parts = j->work > 0 && count + PARTS_MAX <= WAITING_MAX ? divide(j, &it, box, part) : -1;
+    const int parts = j->pool.work > 0 && count + PARTS_MAX <= WAITING_MAX ? divide(j, &it, box, part) : -1;
     if (parts < 0) judge_left(j, it.near, it.far);
     for (int h = 0; h < parts; h++) waiting[count++] = part[h];
   }
@@ -215,8 +213,7 @@ static void report_met(struct judge *j, int border)
                                     .u = at[0],
                                     .v = at[1],
                                     .t = t,
-                                    .t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t)),
-                                    .sharp = true};
+                                    .t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t))};
     if (place_in_range(j, &depth) == PLACE_IN) judge_root(j, &root);
     return;
   }
@@ -233,11 +230,12 @@ static bool out_of_range(const struct judge *j)
   return depth.error == 0 && place_in_range(j, &depth) != PLACE_IN;
 }
 
-void exact_search(struct judge *j, double near)
+void exact_search(struct judge *j, uint32_t patch, double near)
 {
   struct waiting waiting[WAITING_MAX];
   int count = 0;
-  if (!j->seen) {
+  if (j->pool.work > 0) judge_turn(j, patch);
+  if (j->pool.work <= 0 || !j->seen) {
     judge_left(j, near, INFINITY);
     return;
   }

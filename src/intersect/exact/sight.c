@@ -104,7 +104,8 @@ static int longest_axis(const double d[3])
   return fabs(d[2]) > fabs(d[k]) ? 2 : k;
 }
 
-bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out)
+/* Sets only `plane` and `along`. */
+static bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out)
 {
   const double *d = ray->direction;
   const int k = longest_axis(d);
@@ -263,58 +264,4 @@ bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, str
     if (on_line(piece, border) && !exchange(out, border, pool)) return false;
   }
   return true;
-}
-
-/* ---- a common zero of two cubics ---- */
-
-/* Products of six border values. */
-enum { COMMON_LIMBS_MAX = 6 * 20 };
-
-bool sight_common(const struct piece *piece, int border, wide *out)
-{
-  static const int64_t binomial[4] = {1, 3, 3, 1};
-  const int bits = piece->bits[0] + piece->bits[1] + 6, n = limbs_for(3 * bits + 8);
-  if (n > COMMON_LIMBS_MAX) return false;
-  limb minor[4][4][COMMON_LIMBS_MAX], x[COMMON_LIMBS_MAX], y[COMMON_LIMBS_MAX], z[COMMON_LIMBS_MAX];
-  for (int i = 0; i < 4; i++) {
-    for (int j = i + 1; j < 4; j++) {
-      limbs_product(x, n, at_border(piece, 0, border, i), piece->limbs[0], at_border(piece, 1, border, j),
-                    piece->limbs[1]);
-      limbs_product(y, n, at_border(piece, 0, border, j), piece->limbs[0], at_border(piece, 1, border, i),
-                    piece->limbs[1]);
-      limbs_subtract(x, x, y, n);
-      limbs_scale(minor[i][j], n, x, n, binomial[i] * binomial[j]);
-    }
-  }
-  /* Bezout's matrix, of paper eq 6's kind: (s^2, s t, t^2) is its null vector at a common zero t/(s + t) */
-  limb middle[COMMON_LIMBS_MAX], cofactor[3][COMMON_LIMBS_MAX];
-  limbs_add(middle, minor[0][3], minor[1][2], n);
-  const limb *m[3][3] = {{minor[0][1], minor[0][2], minor[0][3]},
-                         {minor[0][2], middle, minor[1][3]},
-                         {minor[0][3], minor[1][3], minor[2][3]}};
-  wide null[3] = {0, 0, 0}, largest = 0;
-  for (int row = 0; row < 3; row++) { /* cofactors of each row are a null vector if the determinant vanishes */
-    const limb *const *p = m[(row + 1) % 3], *const *q = m[(row + 2) % 3];
-    wide here[3], most = 0;
-    bool exact;
-    for (int c = 0; c < 3; c++) {
-      limbs_product(x, n, p[(c + 1) % 3], n, q[(c + 2) % 3], n);
-      limbs_product(y, n, p[(c + 2) % 3], n, q[(c + 1) % 3], n);
-      limbs_subtract(cofactor[c], x, y, n);
-      here[c] = limbs_wide(cofactor[c], n, -4 * bits, &exact), most = wide_max(most, wide_abs(here[c]));
-    }
-    if (row == 0) {
-      memset(z, 0, sizeof z);
-      for (int c = 0; c < 3; c++) limbs_product(x, n, m[0][c], n, cofactor[c], n), limbs_add(z, z, x, n);
-      if (!limbs_zero(z, n)) return false;
-    }
-    if (most <= largest) continue;
-    largest = most;
-    for (int c = 0; c < 3; c++) null[c] = here[c];
-  }
-  if (largest == 0) return false;
-  const wide s = wide_abs(null[0]) >= wide_abs(null[2]) ? null[0] : null[1];
-  const wide t = wide_abs(null[0]) >= wide_abs(null[2]) ? null[1] : null[2];
-  *out = t / (s + t);
-  return s + t != 0;
 }

@@ -34,13 +34,7 @@ struct sight {
   double along; /* t = w / along */
 };
 
-/* Only `plane` and `along`. False if there is no room. */
-bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out);
-
-/* All of it; nets are in the pool. */
+/* Nets are in the pool. False if there is no room. */
 bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out);
-
-/* Whether a and b have one common zero on the border's line, and where. False also if they have several. */
-bool sight_common(const struct piece *piece, int border, wide *out);
 
 #endif

@@ -171,10 +171,9 @@ static size_t root_in(struct judge *j, const struct wedge *w, size_t at)
   struct exact_found *found = j->list->at;
   for (size_t k = 0; k < j->list->count; k++) {
     struct wedge its;
-    bool sure = true;
     if (found[k].root.patch == w->patch && found[k].kind == EXACT_BORDER &&
         wedge_of(j->asked->model, &found[k].root, &its) && same_wedge(w, &its) &&
-        judge_compare(j, &found[k].root, &found[at].root, &sure) == 0 && sure)
+        judge_compare(j, &found[k].root, &found[at].root) == 0)
       return k;
   }
   return j->list->count;
@@ -205,13 +204,12 @@ static size_t across_border(struct judge *j, size_t at, size_t out[VERTEX_MAX])
   const struct edge_neighbour *other = model_neighbour(j->asked->model, here->root.patch, border);
   for (size_t k = 0; k < j->list->count && other->patch != EDGE_NONE; k++) {
     struct exact_root *root = &found[k].root;
-    bool sure = true;
     if (k == at || root->patch != other->patch || found[k].kind != EXACT_BORDER || root->borders != 1u << other->border)
       continue;
     const wide along = border < 2 ? here->root.v : here->root.u, its = other->border < 2 ? root->v : root->u;
     const double apart = fabs((double)(along - (other->reversed ? 1 - its : its)));
     if (apart > here->root.radius_u + here->root.radius_v + root->radius_u + root->radius_v) continue;
-    if (judge_compare(j, root, &here->root, &sure) != 0 || !sure) continue;
+    if (judge_compare(j, root, &here->root) != 0) continue;
     out[0] = at, out[1] = k;
     return here->root.side * root->side * (other->reversed ? -1 : 1) == -1 ? 2 : 0;
   }

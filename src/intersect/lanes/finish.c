@@ -153,48 +153,35 @@ static struct exact_case lane_case(const struct packet *p, unsigned lane)
                              .limit = packet_exact_limit(p, lane)};
 }
 
-static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
-{
-  const struct best *best = &p->best;
-  return (struct exact_maybe){
-    .patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane], .t = best->t[lane]};
-}
-
-/* Has the last resort decide the lane. Returns whether the answer is written; otherwise it is now the lane's best
- * root. */
+/* Has the last resort decide the lane. Returns whether the answer is written; otherwise it is the lane's best root. */
 static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 {
   struct best *best = &p->best;
   struct exact_case wanted = lane_case(p, lane);
-  const bool hit = best->patch[lane] != NO_PATCH;
   const struct exact_root known = packet_root(p, lane);
-  const struct exact_maybe maybe = lane_maybe(p, lane);
-  if (hit && best->certain[lane]) wanted.known = &known;
-  else if (hit) wanted.maybe = &maybe;
   struct exact_decision decision;
+  if (best->patch[lane] != NO_PATCH) wanted.known = &known;
   exact_closest(&wanted, &decision);
   if (!decision.sure) best->doubt[lane] = -1;
-  struct exact_root *root = &decision.root;
-  if (decision.verdict == EXACT_MISS) {
-    best->patch[lane] = NO_PATCH;
-    return false;
-  }
-  if (decision.verdict == EXACT_MAYBE) {
-    exact_maybe_hit(p->model, &p->rays[lane], &decision.maybe, out);
-    return true;
-  }
-  if (decision.known) return false;
-  exact_root_hit(p->model, &p->rays[lane], root, !(packet_doubt(p) >> lane & 1), out);
+  if (!decision.hit) best->patch[lane] = NO_PATCH;
+  if (!decision.hit || decision.known) return false;
+  exact_hit(p->model, &p->rays[lane], &decision.root, !(packet_doubt(p) >> lane & 1), out);
   return true;
 }
+
+/* A t as near as this, relatively, rounds to a double next to it. */
+#define LAST_PLACES 0x1p-58
 
 /* Writes the hit of a lane whose best root the last step did not make good. */
 static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct hit *out)
 {
-  struct exact_root root = packet_root(p, lane);
-  const struct exact_maybe maybe = lane_maybe(p, lane);
-  if (p->best.certain[lane]) exact_root_hit(p->model, &p->rays[lane], &root, sure, out);
-  else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);
+  const struct exact_root known = packet_root(p, lane);
+  struct exact_root root = known;
+  const bool certain = p->best.certain[lane];
+  struct exact_case wanted = lane_case(p, lane);
+  wanted.known = &known;
+  if (certain && known.t_error > LAST_PLACES * fabs((double)known.t)) exact_place(&wanted, &root);
+  exact_hit(p->model, &p->rays[lane], &root, sure && certain, out);
 }
 
 /* A ray whose budget is exhausted, or that left more open than there is room for, may hit what was not examined. Every

@@ -71,18 +71,14 @@ static bool decide(struct packet *p, unsigned lane)
                                     .region_count = of->regions.count,
                                     .work = &p->tracer->counts.work,
                                     .limit = packet_exact_limit(p, lane)};
-  if (p->model->unproven) exact_list_sort(&of->found);
-  return !p->model->unproven && exact_all(&wanted, &of->found) && !p->best.doubt[lane];
+  return exact_all(&wanted, &of->found) && !p->best.doubt[lane];
 }
 
 static struct hit answer(const struct packet *p, unsigned lane, const struct exact_found *found)
 {
   struct hit hit;
-  struct exact_root root = found->root;
-  const struct exact_maybe maybe = {root.patch, (double)root.u, (double)root.v, (double)root.t, root.t_error};
-  if (found->taken >= 0 && !(found->tied && root.sharp)) return ((struct hit *)p->gather->hits.at)[found->taken];
-  if (found->kind == EXACT_OPEN) exact_maybe_hit(p->model, &p->rays[lane], &maybe, &hit);
-  else exact_root_hit(p->model, &p->rays[lane], &root, true, &hit);
+  if (found->taken >= 0 && !found->tied) return ((struct hit *)p->gather->hits.at)[found->taken];
+  exact_hit(p->model, &p->rays[lane], &found->root, found->kind != EXACT_OPEN, &hit);
   return hit;
 }
 
