@@ -201,6 +201,7 @@ static bool cut_box(double box[2][2], const double e[2], double range[2][2])
 static bool square_range(double c, double d, double k, double off, double range[2])
 {
   range[0] = -1, range[1] = 1;
+  if (fabs(c) - fabs(d) - fabs(k) > off) return false;
   if (k < 0) c = -c, d = -d, k = -k;
   const double size = d * d + 4 * k * (fabs(c) + off), most = d * d - 4 * k * (c - off) + 16 * UNIT_ROUNDOFF * size;
   if (most < 0) return false;
@@ -211,61 +212,41 @@ static bool square_range(double c, double d, double k, double off, double range[
 }
 
 /* Next to a tangency the row f is small and changes little along the curve s = 0, s one of a and b, but the piece
- * reaches to either side of that. With e along the gradient of s in the middle, a linear function m is chosen such that
- * f + m s has neither slope nor bend along e there, nor a mixed one, so it is nearly a square function of the place
- * across e, as f is along the curve. Where that is as small as it differs from f + m s, and s from its tangent plane, is
- * all that can hold a common zero: `box`, of a size 3/2 powers of the piece's. Returns whether there may be one. */
+ * reaches to either side of that. With e along the gradient of s in the middle, the curve lies in a strip about the line
+ * across e, as wide as s differs from its tangent plane. In there f is nearly a square function of the place x across e:
+ * its Taylor series differs from that by what contains the place along e, and by terms of third order. Where that leaves
+ * room for a zero is all that can hold a common one: `box`, of a size 3/2 powers of the piece's. Returns whether there may
+ * be one. */
 static bool tangent_box(const double s[4][4], double s_error, const double gradient[2], const struct row *row,
                         double box[2][2])
 {
   const double steep = hypot(gradient[0], gradient[1]), e[2] = {gradient[0] / steep, gradient[1] / steep};
   if (!(steep > s_error)) return true;
   const struct bend f = bend(row->net, e), t = bend(s, e);
-  const double determinant = 2 * t.along * t.along - t.value * t.along2;
-  if (!(fabs(determinant) > PIECE_ERROR)) return true;
-  const double middle = (t.value * f.along2 - 2 * f.along * t.along) / determinant;
-  const double m_along = (f.along * t.along2 - f.along2 * t.along) / determinant;
-  const double m_across = -(f.mixed + middle * t.mixed) / t.along;
-  double m[2][2], half[2][4][5];
-  double most_m = 0, most_f = 0, most_s = 0, off_s = 0, off = 0, least = INFINITY, largest = -INFINITY;
-  for (int n = 0; n < 4; n++) {
-    const double u = n / 2 - 0.5, v = n % 2 - 0.5;
-    m[n / 2][n % 2] = middle + m_along * (e[0] * u + e[1] * v) + m_across * (e[0] * v - e[1] * u);
-    most_m = real_max(most_m, fabs(m[n / 2][n % 2]));
-  }
-  for (int n = 0; n < 16; n++) {
-    const double x = s[n / 4][n % 4], u = n / 4 / 3.0 - 0.5, v = n % 4 / 3.0 - 0.5;
-    most_f = real_max(most_f, fabs(row->net[n / 4][n % 4])), most_s = real_max(most_s, fabs(x));
-    off_s = real_max(off_s, fabs(x - (t.value + t.along * (e[0] * u + e[1] * v))));
-  }
-  for (int i = 0; i < 2; i++) { /* the product in Bernstein form: first of degree 4 along v */
-    for (int r = 0; r < 4; r++) {
-      for (int l = 0; l < 5; l++) {
-        const double low = l < 4 ? (4 - l) * (row->net[r][l] + m[i][0] * s[r][l]) : 0;
-        const double high = l > 0 ? l * (row->net[r][l - 1] + m[i][1] * s[r][l - 1]) : 0;
-        half[i][r][l] = (low + high) / 4;
-      }
+  double off_s = 0, off = 0, most_s = 0, most_f = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) { /* control values of the series: of (u - 1/2)^2 they are uu */
+      const double u = i / 3.0 - 0.5, v = j / 3.0 - 0.5, along = e[0] * u + e[1] * v, across = e[0] * v - e[1] * u;
+      const double uu = i * (i - 1) / 6.0 - u - 0.25, vv = j * (j - 1) / 6.0 - v - 0.25, uv = u * v;
+      const double square = e[0] * e[0] * uu + 2 * e[0] * e[1] * uv + e[1] * e[1] * vv;
+      const double across_square = e[1] * e[1] * uu - 2 * e[0] * e[1] * uv + e[0] * e[0] * vv;
+      const double both = (vv - uu) * e[0] * e[1] + uv * (e[0] * e[0] - e[1] * e[1]);
+      const double series = f.value + f.along * along + f.across * across + f.along2 / 2 * square + f.mixed * both +
+                            f.across2 / 2 * across_square;
+      most_f = real_max(most_f, fabs(row->net[i][j])), most_s = real_max(most_s, fabs(s[i][j]));
+      off_s = real_max(off_s, fabs(s[i][j] - (t.value + t.along * along)));
+      off = real_max(off, fabs(row->net[i][j] - series));
     }
   }
-  const double c = f.value + middle * t.value, d = f.across + t.value * m_across,
-               k = (f.across2 + middle * t.across2) / 2;
-  for (int i = 0; i < 5; i++) {
-    for (int l = 0; l < 5; l++) {
-      const double low = i < 4 ? (4 - i) * half[0][i][l] : 0, high = i > 0 ? i * half[1][i - 1][l] : 0;
-      const double x = (low + high) / 4, u = i / 4.0 - 0.5, v = l / 4.0 - 0.5;
-      const double uu = i * (i - 1) / 12.0 - u - 0.25, vv = l * (l - 1) / 12.0 - v - 0.25; /* (u - 1/2)^2 of degree 4 */
-      const double square = e[1] * e[1] * uu - 2 * e[0] * e[1] * u * v + e[0] * e[0] * vv;
-      least = real_min(least, x), largest = real_max(largest, x);
-      off = real_max(off, fabs(x - (c + d * (e[0] * v - e[1] * u) + k * square)));
-    }
-  }
-  /* nets' errors, and less than ten roundings of each of four summands, which are means */
-  const double error = row->error + most_m * s_error + 16 * UNIT_ROUNDOFF * (most_f + most_m * most_s);
-  if (least > error || largest < -error) return false;
-  off += error + 16 * UNIT_ROUNDOFF * (fabs(c) + fabs(d) + fabs(k));
-  off_s += s_error + 32 * UNIT_ROUNDOFF * most_s; /* t.along is up to 5 times as large */
-  double range[2][2] = {{(-t.value - off_s) / t.along, (-t.value + off_s) / t.along}};
-  return square_range(c, d, k, off, range[1]) && cut_box(box, e, range);
+  /* The nets' errors, and roundings of sums: derivatives are up to 5, second ones up to 24 times as large as the net */
+  off_s += s_error + 32 * UNIT_ROUNDOFF * most_s, off += row->error + 256 * UNIT_ROUNDOFF * most_f;
+  double range[2][2] = {{real_max(-1, (-t.value - off_s) / t.along), real_min(1, (-t.value + off_s) / t.along)}};
+  const double middle = (range[0][0] + range[0][1]) / 2, half = (range[0][1] - range[0][0]) / 2; /* of the strip */
+  if (half < 0) return false;
+  const double slope = f.along + f.along2 * middle;
+  off += half * (fabs(slope) + fabs(f.mixed) + fabs(f.along2) / 2 * half);
+  const double value = f.value + (f.along + f.along2 / 2 * middle) * middle;
+  return square_range(value, f.across + f.mixed * middle, f.across2 / 2, off, range[1]) && cut_box(box, e, range);
 }
 
 /* ---- the decision ---- */
