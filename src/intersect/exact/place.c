@@ -10,6 +10,7 @@
 
 #include "base/real.h"
 #include "geometry/edges.h"
+#include "geometry/patch.h"
 
 /* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
 enum { ZOOMS = 4 };
@@ -93,38 +94,21 @@ static enum place_within in_range(struct placing *p)
   return within == PLACE_UNKNOWN && !p->corner && in_corner(p) ? place_in_range(p->j, &p->depth) : within;
 }
 
-/* The sign of the quotient (sight.h) next to the root, which is on that border; 0 if that is not known. */
-static int quotient_sign(const struct placing *p, const struct sight_border *border)
-{
-  struct pool *pool = &p->j->pool;
-  const size_t before = pool->used;
-  struct piece off = border->off, part;
-  const int along = border->border < 2, end = border->border & 1;
-  const double here = (double)(p->piece.low[along] + p->piece.size[along] * p->root.at[along]);
-  double box[2][2];
-  box[along][0] = here - 0x1p-29, box[along][1] = here + 0x1p-29;
-  box[1 - along][0] = end ? 1 - 0x1p-30 : 0, box[1 - along][1] = end ? 1 : 0x1p-30;
-  int positive = 0, negative = 0;
-  if (border->side != 0 && piece_box(&off, box, pool, &part) && piece_exact(&part, pool))
-    for (int c = 0; c < 16; c++)
-      positive += part.value[NET_B][c / 4][c % 4] > 0, negative += part.value[NET_B][c / 4][c % 4] < 0;
-  pool->used = before;
-  return (positive == 16) - (negative == 16);
-}
+/* Off by no more: the nets are at most 1 in size and off by PIECE_ERROR, their derivatives at most 6, and off by 6 of it
+ * and 20 roundings of that; u and v are rounded, and second derivatives at most 36. */
+#define JACOBIAN_ERROR (2 * 6 * (6 + 120 + 2 * 36) * UNIT_ROUNDOFF)
 
-/* See exact_root.side. Let T be the border's tangent as the ray sees it, and X a point of the patch near to the root. A
- * regular root has cross(T,X) > 0 if the Jacobian's sign, and the ways in which the border and the way inward run, say
- * so. On a line through the origin T is the kept polynomial's derivative along the border over its control value, times
- * that point; and the quotient's sign is that of cross(X, point). */
-static int border_side(const struct placing *p)
+/* See exact_root.side. The patch lies left of a border's tangent as the Jacobian's sign, and the ways in which the border
+ * and the way inward run, say. */
+static int border_side(const struct placing *p, const struct exact_root *root)
 {
   static const int sense[4] = {-1, 1, 1, -1};
-  const struct sight *sight = &p->j->sight;
-  const int border = __builtin_ctz(p->on);
-  if (p->on & (p->on - 1)) return 0;
-  if (p->from->border < 0) return sense[border] * p->root.turn * sight->flip;
-  const struct sight_border *own = &sight->border[p->from->border];
-  return -sense[border] * p->root.turn * own->side * quotient_sign(p, own);
+  const struct piece *plane = &p->j->sight.plane;
+  const struct patch_jet a = patch_evaluate(plane->value[NET_A], (double)root->u, (double)root->v);
+  const struct patch_jet b = patch_evaluate(plane->value[NET_B], (double)root->u, (double)root->v);
+  const double jacobian = a.du * b.dv - a.dv * b.du;
+  if (p->on & (p->on - 1) || fabs(jacobian) <= JACOBIAN_ERROR) return 0;
+  return jacobian > 0 ? sense[__builtin_ctz(p->on)] : -sense[__builtin_ctz(p->on)];
 }
 
 static struct exact_root found_root(const struct placing *p)
@@ -155,7 +139,7 @@ static void report(const struct placing *p, enum place_within inside, enum place
   } else if (inside == PLACE_UNKNOWN || (touched && !p->on && j->asks == JUDGE_ALL)) {
     judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
   } else {
-    if (p->on) found.side = border_side(p);
+    if (p->on) found.side = border_side(p, &found);
     judge_root(j, &found);
   }
 }
@@ -163,7 +147,7 @@ static void report(const struct placing *p, enum place_within inside, enum place
 void place_root(struct judge *j, const struct waiting *it, const struct piece_root *root)
 {
   const size_t before = j->pool.used;
-  const bool touched = root->turn == 0;
+  const bool touched = root->touches;
   struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
   for (int zooms = 0;; zooms++) {
     struct piece closer;

@@ -27,8 +27,8 @@ enum place_within { PLACE_OUT, PLACE_IN, PLACE_UNKNOWN };
 /* Whether that is strictly between the ray's ends. */
 enum place_within place_in_range(const struct judge *j, const struct depth *depth);
 
-/* Reports a root that piece_root has found, or, with a radius of 0, one in a corner of the piece. If that has `turn` 0, the
- * Jacobian may vanish there: within the patch the ray may touch the surface, so it does not count among all hits. */
+/* Reports a root that piece_root has found, or, with a radius of 0, one in a corner of the piece. If the ray may only touch
+ * the surface there, within the patch, it does not count among all hits. */
 void place_root(struct judge *j, const struct waiting *it, const struct piece_root *root);
 
 #endif

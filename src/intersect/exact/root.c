@@ -289,7 +289,7 @@ enum piece_verdict piece_root(struct piece *piece, bool fine, struct pool *pool,
   for (int k = 0; k < 2; k++) outside = real_max(outside, real_max(-out->at[k], out->at[k] - 1));
   if (outside > out->radius) return PIECE_EMPTY;
   if (!(out->radius <= PIECE_MARGIN / 2)) return PIECE_OPEN;
-  out->turn = along[0] > 0 ? 1 : -1;
+  out->touches = false;
   return PIECE_ROOT;
 }
 

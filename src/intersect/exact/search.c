@@ -57,13 +57,12 @@ static bool corner_alone(struct judge *j, const struct piece *piece, int u, int 
   return false;
 }
 
-/* The sign of the Jacobian in such a corner of an exact piece; 0 if it is not known. */
-static int corner_turn(const struct piece *piece, int u, int v)
+/* Whether the Jacobian may vanish in such a corner of an exact piece. */
+static bool corner_touches(const struct piece *piece, int u, int v)
 {
   const double(*a)[4] = piece->value[NET_A], (*b)[4] = piece->value[NET_B];
   const int beside_u = u ? 2 : 1, beside_v = v ? 2 : 1;
-  const double minor = a[beside_u][v] * b[u][beside_v] - a[u][beside_v] * b[beside_u][v];
-  return fabs(minor) <= 8 * PIECE_ERROR ? 0 : (minor > 0) == (u == v) ? 1 : -1;
+  return fabs(a[beside_u][v] * b[u][beside_v] - a[u][beside_v] * b[beside_u][v]) <= 8 * PIECE_ERROR;
 }
 
 /* Decides a piece with a root in one of its corners. */
@@ -72,7 +71,7 @@ static bool decide_corner(struct judge *j, struct waiting *it)
   for (int corner = 0; corner < 4; corner++) {
     const int u = corner / 2, v = corner % 2;
     if (!piece_corner_root(&it->piece, u, v, &j->pool) || !corner_alone(j, &it->piece, 3 * u, 3 * v)) continue;
-    const struct piece_root root = {.at = {u, v}, .radius = 0, .turn = corner_turn(&it->piece, 3 * u, 3 * v)};
+    const struct piece_root root = {.at = {u, v}, .radius = 0, .touches = corner_touches(&it->piece, 3 * u, 3 * v)};
     place_root(j, it, &root);
     return true;
   }
@@ -221,15 +220,6 @@ static void report_met(struct judge *j, int border)
   judge_maybe(j, at[0], at[1], near, 4 * UNIT_ROUNDOFF * fabs(near), near);
 }
 
-/* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */
-static bool out_of_range(const struct judge *j)
-{
-  static const double middle[2] = {0.5, 0.5};
-  struct depth depth;
-  depth.w = piece_depth(&j->sight.plane, middle, 1, &depth.error, &depth.exact);
-  return depth.error == 0 && place_in_range(j, &depth) != PLACE_IN;
-}
-
 void exact_search(struct judge *j, uint32_t patch, double near)
 {
   struct waiting waiting[WAITING_MAX];
@@ -239,7 +229,6 @@ void exact_search(struct judge *j, uint32_t patch, double near)
     judge_left(j, near, INFINITY);
     return;
   }
-  if (out_of_range(j)) return;
   const size_t before = j->pool.used;
   for (int k = -1; k < j->sight.borders; k++) {
     waiting[count] = (struct waiting){

@@ -229,9 +229,8 @@ static bool exchange(struct sight *s, int border, struct pool *pool)
   for (int c = 0; c < 16 && zero; c++) zero = limbs_zero(net + c * limbs, limbs);
   struct sight_border *out = &s->border[s->borders++];
   *out = (struct sight_border){.border = border};
-  out->side = s->flip * limbs_sign(at_border(piece, kept, border, largest), piece->limbs[kept]);
   if (!set_on(piece, kept, border, pool, &out->on)) return false;
-  if (zero) s->dependent |= !piece_misses(piece), out->side = 0; /* multiples of each other, and zero somewhere */
+  if (zero) s->dependent |= !piece_misses(piece); /* multiples of each other, and zero somewhere */
   if (!zero) {
     const int exponent = piece->exponent[0] + piece->exponent[1];
     piece->net[NET_A] = piece->net[kept], piece->limbs[NET_A] = piece->limbs[kept];
@@ -242,15 +241,13 @@ static bool exchange(struct sight *s, int border, struct pool *pool)
       if (!divide(piece, NET_B, border, pool)) return false;
     } while (row_zero(piece, NET_B, border));
     piece_measure(piece);
-    s->flip = -out->side;
   }
-  out->off = *piece;
   return true;
 }
 
 bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out)
 {
-  *out = (struct sight){.flip = 1};
+  *out = (struct sight){.borders = 0};
   if (!sight_plane(P, ray, pool, out)) return false;
   out->off = out->plane;
   out->dependent = out->plane.bits[0] == 0 && out->plane.bits[1] == 0; /* a curve or a point on the ray */

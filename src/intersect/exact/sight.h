@@ -17,16 +17,13 @@
 
 /* A border whose curve is on a line through the origin. */
 struct sight_border {
-  int border;       /* number as of geometry/edges.h */
-  struct piece on;  /* its roots are those on the border: a is the kept polynomial there, b the distance */
-  struct piece off; /* its roots are those off the border: a is the kept polynomial, b the quotient */
-  int side; /* sign of the kept polynomial's largest control value, times `flip` before; 0 if there is no quotient */
+  int border;      /* number as of geometry/edges.h */
+  struct piece on; /* its roots are those on the border: a is the kept polynomial there, b the distance */
 };
 
 struct sight {
   struct piece plane; /* the ray's own a and b */
   struct piece off;   /* the same after all exchanges: it has all roots of the patch off the borders listed below */
-  int flip;           /* sign by which the exchanges turn the plane of (a,b) */
   bool dependent;     /* a and b are multiples of each other: the ray lies in the plane of a flat patch */
   unsigned met;       /* borders all of whose points are on the ray, as bits */
   struct sight_border border[4];
