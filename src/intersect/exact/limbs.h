@@ -2,7 +2,7 @@
  *
  * Internal to src/intersect/exact. A number is `n` limbs, the least first, in two's complement. All functions are exact
  * if the result fits into the limbs of `out`; whoever calls sees to that. out may be an operand. Nothing allocates, no
- * number is longer than some dozen limbs, and only sums, products with a limb and products of two numbers are needed,
+ * number is longer than some dozen limbs, and only sums, means and products are needed,
  * so these loops stand here rather than a library of integers of any size.
  */
 #ifndef PSCN_INTERSECT_EXACT_LIMBS_H
@@ -32,11 +32,6 @@ static inline bool limbs_zero(const limb *a, int n)
   return any == 0;
 }
 
-static inline bool limbs_negative(const limb *a, int n) { return a[n - 1] >> (LIMB_BITS - 1); }
-
-/* -1, 0 or 1. */
-static inline int limbs_sign(const limb *a, int n) { return limbs_negative(a, n) ? -1 : !limbs_zero(a, n); }
-
 /* The least number of bits b with |a| <= 2^b. */
 static inline int limbs_bits(const limb *a, int n)
 {
@@ -63,16 +58,14 @@ static inline void limbs_copy(limb *out, int n, const limb *a, int na)
   for (int k = 0; k < n; k++) out[k] = k < na ? a[k] : fill;
 }
 
-static inline void limbs_set(limb *out, int n, int64_t a)
+/* out = x / 2^low, an integer less than 2^(64 n - 1) in size. */
+static inline void limbs_double(limb *out, int n, double x, int low)
 {
-  out[0] = (limb)a;
-  for (int k = 1; k < n; k++) out[k] = a < 0 ? ~(limb)0 : 0;
-}
-
-static inline void limbs_negate(limb *a, int n)
-{
-  limb carry = 1;
-  for (int k = 0; k < n; k++) a[k] = ~a[k] + carry, carry &= a[k] == 0;
+  int exponent;
+  const int64_t number = (int64_t)ldexp(frexp(x, &exponent), 53);
+  const int shift = number ? exponent - 53 - low : 0, whole = shift / LIMB_BITS;
+  const limb_sum part = (limb_sum)number * ((limb_sum)1 << shift % LIMB_BITS);
+  for (int k = 0; k < n; k++) out[k] = k < whole ? 0 : (limb)(part >> (k == whole ? 0 : k == whole + 1 ? 64 : 127));
 }
 
 /* out = a + b, or a - b; all of n limbs */
@@ -86,18 +79,6 @@ static inline void limbs_subtract(limb *out, const limb *a, const limb *b, int n
 {
   limb_pair sum = 1;
   for (int k = 0; k < n; k++) sum += (limb_pair)a[k] + ~b[k], out[k] = (limb)sum, sum >>= LIMB_BITS;
-}
-
-/* out = a m */
-static inline void limbs_scale(limb *out, int n, const limb *a, int na, int64_t m)
-{
-  const limb fill = limbs_fill(a, na), size = m < 0 ? -(limb)m : (limb)m;
-  limb_pair sum = 0;
-  for (int k = 0; k < n; k++) {
-    sum += (limb_pair)(k < na ? a[k] : fill) * size;
-    out[k] = (limb)sum, sum >>= LIMB_BITS;
-  }
-  if (m < 0) limbs_negate(out, n);
 }
 
 /* out = a w0 + b w1; a and b of n limbs, the weights less than 2^62 */
@@ -114,25 +95,17 @@ static inline void limbs_blend(limb *out, const limb *a, const limb *b, int n, l
 static inline void limbs_product(limb *restrict out, int n, const limb *a, int na, const limb *b, int nb)
 {
   memset(out, 0, (size_t)n * sizeof *out);
-  for (int i = 0; i < n; i++) {
-    const limb factor = limbs_at(a, na, i);
+  for (int i = 0; i < na && i < n; i++) {
     limb_pair sum = 0;
     for (int k = 0; i + k < n; k++) {
-      sum += (limb_pair)factor * limbs_at(b, nb, k) + out[i + k];
+      sum += (limb_pair)a[i] * limbs_at(b, nb, k) + out[i + k];
       out[i + k] = (limb)sum, sum >>= LIMB_BITS;
     }
   }
-}
-
-/* out = a 2^shift; out may be a */
-static inline void limbs_shift(limb *out, int n, const limb *a, int na, int shift)
-{
-  const int whole = shift / LIMB_BITS, part = shift % LIMB_BITS;
-  const limb fill = limbs_fill(a, na);
-  for (int k = n; k-- > 0;) {
-    const limb high = k < whole ? 0 : k - whole < na ? a[k - whole] : fill;
-    const limb low = k <= whole ? 0 : k - whole - 1 < na ? a[k - whole - 1] : fill;
-    out[k] = part ? high << part | low >> (LIMB_BITS - part) : high;
+  limb_pair sum = 1;
+  for (int k = 0; na + k < n && limbs_fill(a, na); k++) { /* a is the sum of its limbs less 2^(64 na) */
+    sum += (limb_pair)out[na + k] + ~limbs_at(b, nb, k);
+    out[na + k] = (limb)sum, sum >>= LIMB_BITS;
   }
 }
 

@@ -282,29 +282,15 @@ int piece_longer(const struct piece *piece)
 
 limb *piece_combine(const struct piece *piece, struct weight p, struct weight q, struct pool *pool, int *out_limbs)
 {
-  const struct weight weight[2] = {p, q};
-  limb term[PIECE_LIMBS_MAX], product[PIECE_LIMBS_MAX];
-  int bits = 0;
-  for (int k = 0; k < 2; k++) {
-    const int here = piece->bits[k] + limbs_bits(weight[k].at, weight[k].limbs) + weight[k].shift;
-    bits = here > bits ? here : bits;
+  const int in[2] = {piece->limbs[NET_A], piece->limbs[NET_B]};
+  const int bits[2] = {piece->bits[NET_A] + limbs_bits(p.at, p.limbs), piece->bits[NET_B] + limbs_bits(q.at, q.limbs)};
+  const int limbs = *out_limbs = limbs_for((bits[0] > bits[1] ? bits[0] : bits[1]) + 2);
+  limb *out = pool_net(pool, limbs), product[PIECE_LIMBS_MAX];
+  for (int c = 0; c < 16 && out; c++) {
+    limbs_product(out + c * limbs, limbs, p.at, p.limbs, piece->net[NET_A] + c * in[0], in[0]);
+    limbs_product(product, limbs, q.at, q.limbs, piece->net[NET_B] + c * in[1], in[1]);
+    limbs_subtract(out + c * limbs, out + c * limbs, product, limbs);
   }
-  const int limbs = limbs_for(bits + 2);
-  limb *out = pool_net(pool, limbs);
-  if (!out) return NULL;
-  memset(out, 0, 16 * (size_t)limbs * sizeof *out);
-  for (int c = 0; c < 16; c++) {
-    for (int k = 0; k < 2; k++) {
-      const int in = piece->limbs[k];
-      const limb *x = piece->net[k] + c * in;
-      if (weight[k].limbs == 1) limbs_scale(product, limbs, x, in, (int64_t)weight[k].at[0]);
-      else limbs_product(product, limbs, x, in, weight[k].at, weight[k].limbs);
-      limbs_shift(term, limbs, product, limbs, weight[k].shift);
-      if (weight[k].minus) limbs_subtract(out + c * limbs, out + c * limbs, term, limbs);
-      else limbs_add(out + c * limbs, out + c * limbs, term, limbs);
-    }
-  }
-  *out_limbs = limbs;
   return out;
 }
 

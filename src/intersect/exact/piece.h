@@ -132,14 +132,13 @@ void piece_depth_changes(const struct piece *piece, int limbs, limb *out);
 /* Bounds of w on the piece. */
 void piece_depths(const struct piece *piece, double *least, double *most);
 
-/* An integer times 2^shift, or that times -1. */
+/* An integer. */
 struct weight {
   const limb *at;
-  int limbs, shift;
-  bool minus;
+  int limbs;
 };
 
-/* The integers' net p a + q b, exponents left aside, in memory of the pool; NULL if there is no room. */
+/* The integers' net p a - q b, exponents left aside, in memory of the pool; NULL if there is no room. */
 limb *piece_combine(const struct piece *piece, struct weight p, struct weight q, struct pool *pool, int *out_limbs);
 
 /* A net of 16 such integers as doubles: times a power of two, so that the largest is 1/2 to 1, off by PIECE_ERROR. A

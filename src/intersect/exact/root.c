@@ -29,12 +29,12 @@ static void slopes_round(const struct piece *piece, struct slopes *out)
 static void slopes_exact(const struct piece *piece, int k, struct slopes *out)
 {
   const int limbs = out->limbs[k] = limbs_for(piece->bits[k] + 6);
-  for (int d = 0; d < 2; d++) limbs_set(out->exact[k][d], limbs, 0);
+  memset(out->exact[k], 0, sizeof out->exact[k]);
   for (int c = 0; c < 16; c++) {
     limb x[PIECE_LIMBS_MAX];
     for (int d = 0; d < 2; d++) {
-      const int64_t factor = d == 0 ? sign_of[c / 4] * weight_of[c % 4] : weight_of[c / 4] * sign_of[c % 4];
-      limbs_scale(x, limbs, piece->net[k] + c * piece->limbs[k], piece->limbs[k], factor);
+      const limb factor = (limb)(d == 0 ? sign_of[c / 4] * weight_of[c % 4] : weight_of[c / 4] * sign_of[c % 4]);
+      limbs_product(x, limbs, &factor, 1, piece->net[k] + c * piece->limbs[k], piece->limbs[k]);
       limbs_add(out->exact[k][d], out->exact[k][d], x, limbs);
     }
   }
@@ -51,12 +51,11 @@ struct row {
 #define ROW_BITS 0x1p-10
 #define ROW_BITS_FINE 0x1p-40
 
-/* Row d: b_v a - a_v b, or a_u b - b_u a; with other weights than these it is a combination as well, so only roundings
+/* Row d: b_v a - a_v b, or b_u a - a_u b; with other weights than these it is a combination as well, so only roundings
  * of a and b count. */
 static void combine_row(const struct piece *piece, const struct slopes *slopes, int d, struct row *out)
 {
-  const double p[2] = {d == 0 ? slopes->value[1][1] : -slopes->value[1][0],
-                       d == 0 ? -slopes->value[0][1] : slopes->value[0][0]};
+  const double p[2] = {slopes->value[1][1 - d], -slopes->value[0][1 - d]};
   out->error = 0;
   for (int k = 0; k < 2; k++) out->error += (piece->error[k] + 2 * UNIT_ROUNDOFF) * fabs(p[k]);
   for (int c = 0; c < 16; c++)
@@ -69,9 +68,8 @@ static bool combine_exactly(const struct piece *piece, struct slopes *slopes, in
   const size_t before = pool->used;
   int limbs;
   for (int k = 0; k < 2; k++) slopes_exact(piece, k, slopes);
-  const struct weight a = {slopes->exact[1][1 - d], slopes->limbs[1], 0, d == 1},
-                      b = {slopes->exact[0][1 - d], slopes->limbs[0], 0, d == 0};
-  const limb *net = piece_combine(piece, a, b, pool, &limbs);
+  const struct weight p = {slopes->exact[1][1 - d], slopes->limbs[1]}, q = {slopes->exact[0][1 - d], slopes->limbs[0]};
+  const limb *net = piece_combine(piece, p, q, pool, &limbs);
   if (!net) return false;
   (void)net_round(net, limbs, out->net);
   pool->used = before;

@@ -29,12 +29,13 @@ static void set_reach(const struct judge *j, struct waiting *it)
 
 /* ---- corners ---- */
 
-/* Whether a combination of the net's polynomials is positive on the piece but for that corner, where it is 0. */
-static bool positive_but(double net[4][4], int u, int v)
+/* Whether a combination of the net's polynomials keeps its sign on the piece but for that corner, where it is 0. */
+static bool zero_only(double net[4][4], int u, int v)
 {
+  const double sign = net[3 - u][3 - v] < 0 ? -1 : 1;
   for (int c = 0; c < 16; c++)
-    if (net[c / 4][c % 4] < 0) return false;
-  return net[3 - u][v] > 0 && net[u][3 - v] > 0 && net[3 - u][3 - v] > 0;
+    if (sign * net[c / 4][c % 4] < 0) return false;
+  return net[3 - u][v] != 0 && net[u][3 - v] != 0 && net[3 - u][3 - v] != 0;
 }
 
 /* Whether a root in the corner (u,v), each 0 or 3, is the only one of the piece, though the Jacobian may vanish there:
@@ -42,17 +43,17 @@ static bool positive_but(double net[4][4], int u, int v)
  * at a neighbouring control point. */
 static bool corner_alone(struct judge *j, const struct piece *piece, int u, int v)
 {
+  const int *limbs = piece->limbs, beside[2] = {4 * u + (v ? 2 : 1), 4 * (u ? 2 : 1) + v};
   double net[4][4];
-  for (int side = 0; side < 4; side++) {
-    const int at = 4 * (side & 1 ? u : u ? 2 : 1) + (side & 1 ? (v ? 2 : 1) : v);
-    const limb *x[2] = {piece->net[0] + at * piece->limbs[0], piece->net[1] + at * piece->limbs[1]};
-    const struct weight first = {x[1], piece->limbs[1], 0, side >= 2}, second = {x[0], piece->limbs[0], 0, side < 2};
+  for (int k = 0; k < 2; k++) {
+    const struct weight p = {piece->net[1] + beside[k] * limbs[1], limbs[1]};
+    const struct weight q = {piece->net[0] + beside[k] * limbs[0], limbs[0]};
     const size_t before = j->pool.used;
     int length;
-    const limb *combined = piece_combine(piece, first, second, &j->pool, &length);
+    const limb *combined = piece_combine(piece, p, q, &j->pool, &length);
     if (combined) (void)net_round(combined, length, net);
     j->pool.used = before;
-    if (combined && positive_but(net, u, v)) return true;
+    if (combined && zero_only(net, u, v)) return true;
   }
   return false;
 }

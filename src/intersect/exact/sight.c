@@ -6,95 +6,42 @@
 
 /* ---- the ray's planes ---- */
 
-/* A double: number 2^exponent, the number odd or 0. */
-struct dyadic {
-  int64_t number;
-  int exponent;
+/* Numbers as integers in units of 2^low. */
+struct unit {
+  int low, limbs; /* what a difference of two takes */
 };
 
-static struct dyadic dyadic(double x)
+static struct unit unit_of(size_t count, const double x[])
 {
-  if (x == 0) return (struct dyadic){0, 0};
-  int exponent;
-  const int64_t number = (int64_t)ldexp(frexp(x, &exponent), 53);
-  const int twos = __builtin_ctzll((limb)number);
-  return (struct dyadic){number / ((int64_t)1 << twos), exponent - 53 + twos};
-}
-
-static int dyadic_bits(struct dyadic x) { return x.number ? limbs_bits((const limb[]){(limb)x.number}, 1) : 0; }
-
-/* y = P - o along one axis as integers times 2^exponent. */
-struct axis_net {
-  limb *net;
-  int limbs, exponent;
-  bool flat; /* all of them are equal */
-};
-
-static bool axis_make(double (*P)[4][3], const struct ray *ray, int axis, struct pool *pool, struct axis_net *out)
-{
-  struct dyadic x[17];
   int low = INT32_MAX, high = INT32_MIN;
-  for (int c = 0; c < 17; c++) {
-    x[c] = dyadic(c < 16 ? P[c / 4][c % 4][axis] : ray->origin[axis]);
-    if (x[c].number == 0) continue;
-    const int top = x[c].exponent + dyadic_bits(x[c]);
-    low = x[c].exponent < low ? x[c].exponent : low, high = top > high ? top : high;
+  for (size_t k = 0; k < count; k++) {
+    int exponent;
+    if (x[k] == 0) continue;
+    (void)frexp(x[k], &exponent);
+    low = exponent - 53 < low ? exponent - 53 : low, high = exponent > high ? exponent : high;
   }
-  if (high == INT32_MIN) low = high = 0;
-  *out = (struct axis_net){NULL, limbs_for(high - low + 1), low, true};
-  out->net = pool_net(pool, out->limbs);
-  if (!out->net) return false;
-  limb from[PIECE_LIMBS_MAX], one[1];
-  for (int c = 17; c-- > 0;) {
-    limb *to = c < 16 ? out->net + c * out->limbs : from;
-    one[0] = (limb)x[c].number;
-    limbs_shift(to, out->limbs, one, 1, x[c].number ? x[c].exponent - low : 0);
-    if (c < 16) limbs_subtract(to, to, from, out->limbs);
-    if (c < 15) out->flat &= memcmp(to, to + out->limbs, (size_t)out->limbs * sizeof *to) == 0;
-  }
-  return true;
+  return high == INT32_MIN ? (struct unit){0, 1} : (struct unit){low, limbs_for(high - low + 1)};
 }
 
-/* Takes out the powers of two that all coefficients of a net have in common. */
+/* Takes out the powers of two that all coefficients of a net have in common, and makes them as short as they can be. */
 static void trim(struct piece *piece, int k)
 {
   limb *net = piece->net[k];
-  const int limbs = piece->limbs[k];
-  int twos = INT32_MAX;
+  const int in = piece->limbs[k];
+  int twos = INT32_MAX, bits = 0;
   for (int c = 0; c < 16; c++) {
-    const limb *x = net + c * limbs;
-    const int here = limbs_zero(x, limbs) ? twos : limbs_twos(x);
-    twos = here < twos ? here : twos;
+    if (limbs_zero(net + c * in, in)) continue;
+    const int here = limbs_twos(net + c * in), length = limbs_bits(net + c * in, in);
+    twos = here < twos ? here : twos, bits = length > bits ? length : bits;
   }
-  if (twos == INT32_MAX || twos == 0) return;
+  if (bits == 0) twos = 0;
+  const int limbs = limbs_for(bits - twos);
   for (int c = 0; c < 16; c++) {
     limb x[PIECE_LIMBS_MAX];
-    for (int n = 0; n < limbs; n++) x[n] = (limb)limbs_window(net + c * limbs, limbs, twos + LIMB_BITS * n);
+    for (int n = 0; n < limbs; n++) x[n] = (limb)limbs_window(net + c * in, in, twos + LIMB_BITS * n);
     limbs_copy(net + c * limbs, limbs, x, limbs);
   }
-  piece->exponent[k] += twos;
-}
-
-/* net[k] = y_i d_k - y_k d_i */
-static bool plane_make(const struct axis_net *y[2], const double d[2], struct pool *pool, struct piece *out, int k)
-{
-  const struct dyadic weight[2] = {dyadic(d[0]), dyadic(d[1])};
-  const int exponent[2] = {y[0]->exponent + weight[0].exponent, y[1]->exponent + weight[1].exponent};
-  const bool one = weight[1].number == 0;
-  const int least = one || exponent[0] < exponent[1] ? exponent[0] : exponent[1];
-  struct piece both = {.net = {y[0]->net, y[1]->net}, .limbs = {y[0]->limbs, y[1]->limbs}};
-  const limb number[2] = {(limb)weight[0].number, (limb)weight[1].number};
-  for (int n = 0; n < 2; n++)
-    for (int c = 0; c < 16; c++) {
-      const int bits = limbs_bits(y[n]->net + c * y[n]->limbs, y[n]->limbs);
-      both.bits[n] = bits > both.bits[n] ? bits : both.bits[n];
-    }
-  out->net[k] = piece_combine(&both, (struct weight){&number[0], 1, exponent[0] - least, false},
-                              (struct weight){&number[1], 1, one ? 0 : exponent[1] - least, true}, pool,
-                              &out->limbs[k]);
-  out->exponent[k] = least;
-  if (out->net[k]) trim(out, k);
-  return out->net[k];
+  piece->limbs[k] = limbs, piece->exponent[k] += twos;
 }
 
 /* The axis along which d is longest. */
@@ -104,25 +51,53 @@ static int longest_axis(const double d[3])
   return fabs(d[2]) > fabs(d[k]) ? 2 : k;
 }
 
+/* Sets y to the control points less the origin along an axis. Returns whether all are equal. */
+static bool axis_make(double (*P)[4][3], double from, int axis, struct unit unit, limb *y)
+{
+  limb origin[PIECE_LIMBS_MAX];
+  bool flat = true;
+  limbs_double(origin, unit.limbs, from, unit.low);
+  for (int c = 0; c < 16; c++) {
+    limbs_double(y + c * unit.limbs, unit.limbs, P[c / 4][c % 4][axis], unit.low);
+    limbs_subtract(y + c * unit.limbs, y + c * unit.limbs, origin, unit.limbs);
+    flat &= P[c / 4][c % 4][axis] == P[0][0][axis];
+  }
+  return flat;
+}
+
 /* Sets only `plane` and `along`. */
 static bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *pool, struct sight *out)
 {
   const double *d = ray->direction;
-  const int k = longest_axis(d);
-  struct axis_net y[3];
-  for (int axis = 0; axis < 3; axis++)
-    if (!axis_make(P, ray, axis, pool, &y[axis])) return false;
-  struct piece *piece = &out->plane;
+  struct piece *piece = &out->plane, both = {.net = {NULL}};
+  limb *y[3], direction[3][PIECE_LIMBS_MAX];
+  bool flat[3];
+  double numbers[51];
+  memcpy(numbers, P, 48 * sizeof *numbers), memcpy(numbers + 48, ray->origin, 3 * sizeof *numbers);
+  const struct unit unit = unit_of(51, numbers), way = unit_of(3, d);
+  if (unit.limbs > PIECE_LIMBS_MAX || way.limbs > PIECE_LIMBS_MAX) return false;
   *piece = (struct piece){.length = {1, 1}, .size = {1, 1}, .borders = 15};
+  for (int axis = 0; axis < 3; axis++) {
+    y[axis] = pool_net(pool, unit.limbs);
+    if (!y[axis]) return false;
+    flat[axis] = axis_make(P, ray->origin[axis], axis, unit, y[axis]);
+    limbs_double(direction[axis], way.limbs, d[axis], way.low);
+  }
+  const int k = longest_axis(d);
   for (int n = 0; n < 2; n++) {
     const int i = (k + 1 + n) % 3;
-    const double across[2] = {d[k], d[i]};
-    if (!plane_make((const struct axis_net *[2]){&y[i], &y[k]}, across, pool, piece, n)) return false;
+    for (int m = 0; m < 2; m++)
+      both.net[m] = y[m ? k : i], both.limbs[m] = unit.limbs, both.bits[m] = LIMB_BITS * unit.limbs - 1;
+    piece->net[n] = piece_combine(&both, (struct weight){direction[k], way.limbs},
+                                  (struct weight){direction[i], way.limbs}, pool, &piece->limbs[n]);
+    if (!piece->net[n]) return false;
+    piece->exponent[n] = unit.low + way.low;
+    trim(piece, n);
   }
   int depth = k; /* where the patch is flat across an axis, t is the same all over it */
   for (int axis = 0; axis < 3; axis++)
-    if (y[axis].flat && d[axis] != 0 && !y[depth].flat) depth = axis;
-  piece->net[NET_W] = y[depth].net, piece->limbs[NET_W] = y[depth].limbs, piece->exponent[NET_W] = y[depth].exponent;
+    if (flat[axis] && d[axis] != 0 && !flat[depth]) depth = axis;
+  piece->net[NET_W] = y[depth], piece->limbs[NET_W] = unit.limbs, piece->exponent[NET_W] = unit.low;
   trim(piece, NET_W);
   out->along = d[depth];
   piece_measure(piece);
@@ -221,9 +196,8 @@ static bool exchange(struct sight *s, int border, struct pool *pool)
   while (limbs_zero(at_border(piece, kept, border, largest), piece->limbs[kept])) largest++;
   /* the combination b_p a - a_p b */
   int limbs;
-  limb *net = piece_combine(piece, (struct weight){at_border(piece, 1, border, largest), piece->limbs[1], 0, false},
-                            (struct weight){at_border(piece, 0, border, largest), piece->limbs[0], 0, true}, pool,
-                            &limbs);
+  limb *net = piece_combine(piece, (struct weight){at_border(piece, 1, border, largest), piece->limbs[1]},
+                            (struct weight){at_border(piece, 0, border, largest), piece->limbs[0]}, pool, &limbs);
   if (!net) return false;
   bool zero = true;
   for (int c = 0; c < 16 && zero; c++) zero = limbs_zero(net + c * limbs, limbs);
