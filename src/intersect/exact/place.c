@@ -103,7 +103,7 @@ static enum place_within in_range(struct placing *p)
 static int border_side(const struct placing *p, const struct exact_root *root)
 {
   static const int sense[4] = {-1, 1, 1, -1};
-  const struct piece *plane = &p->j->sight.plane;
+  struct piece *plane = &p->j->sight.plane;
   const struct patch_jet a = patch_evaluate(plane->value[NET_A], (double)root->u, (double)root->v);
   const struct patch_jet b = patch_evaluate(plane->value[NET_B], (double)root->u, (double)root->v);
   const double jacobian = a.du * b.dv - a.dv * b.du;
