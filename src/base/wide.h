@@ -16,4 +16,12 @@ typedef long double wide;
 static inline wide wide_abs(wide a) { return a < 0 ? -a : a; }
 static inline wide wide_max(wide a, wide b) { return a > b ? a : b; }
 
+/* The weights of a cubic's control values at t, and those of their differences in its derivative. */
+static inline void wide_cubic(wide t, wide w[4], wide dw[3])
+{
+  const wide s = 1 - t;
+  w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
+  dw[0] = 3 * s * s, dw[1] = 6 * s * t, dw[2] = 3 * t * t;
+}
+
 #endif

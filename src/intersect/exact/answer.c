@@ -10,20 +10,12 @@
 
 /* ---- the patch in wide arithmetic, from its control points P ---- */
 
-/* The weights of a cubic's control values, and of their differences in its derivative. */
-static void wide_weights(wide t, wide w[4], wide dw[3])
-{
-  const wide s = 1 - t;
-  w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
-  dw[0] = 3 * s * s, dw[1] = 6 * s * t, dw[2] = 3 * t * t;
-}
-
 /* Su x Sv divided by its largest coordinate. Returns false if that is at most `least`. */
 static bool wide_across(double (*P)[4][3], wide u, wide v, wide least, wide n[3])
 {
   wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, size = 0;
-  wide_weights(u, wu, du);
-  wide_weights(v, wv, dv);
+  wide_cubic(u, wu, du);
+  wide_cubic(v, wv, dv);
   for (int c = 0; c < 3; c++) {
     for (int i = 0; i < 3; i++) {
       for (int j = 0; j < 4; j++) {

@@ -10,7 +10,6 @@
 
 #include "base/real.h"
 #include "geometry/edges.h"
-#include "geometry/patch.h"
 
 /* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
 enum { ZOOMS = 4 };
@@ -94,20 +93,30 @@ static enum place_within in_range(struct placing *p)
   return within == PLACE_UNKNOWN && !p->corner && in_corner(p) ? place_in_range(p->j, &p->depth) : within;
 }
 
-/* Off by no more: the nets are at most 1 in size and off by PIECE_ERROR, their derivatives at most 6, and off by 6 of it
- * and 20 roundings of that; u and v are rounded, and second derivatives at most 36. */
-#define JACOBIAN_ERROR (2 * 6 * (6 + 120 + 2 * 36) * UNIT_ROUNDOFF)
+/* Relative to the largest coefficients of a and b: what rounds in a product of their derivatives, each a sum of 24 terms
+ * of 6 times a coefficient, with some 8 roundings each; and the second derivatives, at most 36, times that of u and v. */
+#define JACOBIAN_ERROR ((double)(2 * 36 * (24 + 8 + 12) * WIDE_ROUNDOFF))
 
 /* See exact_root.side. The patch lies left of a border's tangent as the Jacobian's sign, and the ways in which the border
  * and the way inward run, say. */
 static int border_side(const struct placing *p, const struct exact_root *root)
 {
   static const int sense[4] = {-1, 1, 1, -1};
-  struct piece *plane = &p->j->sight.plane;
-  const struct patch_jet a = patch_evaluate(plane->value[NET_A], (double)root->u, (double)root->v);
-  const struct patch_jet b = patch_evaluate(plane->value[NET_B], (double)root->u, (double)root->v);
-  const double jacobian = a.du * b.dv - a.dv * b.du;
-  if (p->on & (p->on - 1) || fabs(jacobian) <= JACOBIAN_ERROR) return 0;
+  wide wu[4], wv[4], eu[3], ev[3], x[4][4], du[2] = {0, 0}, dv[2] = {0, 0}, most[2] = {0, 0};
+  bool exact;
+  wide_cubic(root->u, wu, eu);
+  wide_cubic(root->v, wv, ev);
+  for (int k = 0; k < 2; k++) {
+    for (int c = 0; c < 16; c++) {
+      x[c / 4][c % 4] = piece_coefficient(&p->j->sight.plane, k, c, &exact);
+      most[k] = wide_max(most[k], wide_abs(x[c / 4][c % 4]));
+    }
+    for (int n = 0; n < 3; n++)
+      for (int m = 0; m < 4; m++)
+        du[k] += eu[n] * wv[m] * (x[n + 1][m] - x[n][m]), dv[k] += wu[m] * ev[n] * (x[m][n + 1] - x[m][n]);
+  }
+  const wide jacobian = du[0] * dv[1] - dv[0] * du[1];
+  if (p->on & (p->on - 1) || wide_abs(jacobian) <= JACOBIAN_ERROR * most[0] * most[1]) return 0;
   return jacobian > 0 ? sense[__builtin_ctz(p->on)] : -sense[__builtin_ctz(p->on)];
 }
 

@@ -221,6 +221,15 @@ static void report_met(struct judge *j, int border)
   judge_maybe(j, at[0], at[1], near, 4 * UNIT_ROUNDOFF * fabs(near), near);
 }
 
+/* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */
+static bool out_of_range(const struct judge *j)
+{
+  static const double middle[2] = {0.5, 0.5};
+  struct depth depth;
+  depth.w = piece_depth(&j->sight.plane, middle, 1, &depth.error, &depth.exact);
+  return depth.error == 0 && place_in_range(j, &depth) != PLACE_IN;
+}
+
 void exact_search(struct judge *j, uint32_t patch, double near)
 {
   struct waiting waiting[WAITING_MAX];
@@ -230,6 +239,7 @@ void exact_search(struct judge *j, uint32_t patch, double near)
     judge_left(j, near, INFINITY);
     return;
   }
+  if (out_of_range(j)) return;
   const size_t before = j->pool.used;
   for (int k = -1; k < j->sight.borders; k++) {
     waiting[count] = (struct waiting){
