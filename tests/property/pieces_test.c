@@ -204,9 +204,8 @@ TEST(a_root_is_in_every_piece_that_holds_it)
     }
   }
   free(room);
-  print_message(
-    "%d roots, %d boxes, %d empty, %d exchanged; of their bounds: values %.2g, depths %.2g, roots %.2g\n",
-    roots, boxes, empties, exchanged, worst_value, worst_depth, worst_root);
+  print_message("%d roots, %d boxes, %d empty, %d exchanged; of their bounds: values %.2g, depths %.2g, roots %.2g\n",
+                roots, boxes, empties, exchanged, worst_value, worst_depth, worst_root);
   assert_true(worst_value <= 1 && worst_depth <= 1 && worst_root <= 1);
   assert_true(roots > CASES && exchanged > CASES / 8);
   assert_true(boxes > 2 * CASES && empties > CASES); /* pieces next to tangencies are cut, those beside roots dropped */
