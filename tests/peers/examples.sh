@@ -41,8 +41,10 @@ light_source { <5, 7, -5> color rgb 1 }
 background { color rgb 0.1 }
 END
 
-for scene in teapot bezier; do
-  "$PSCN" check $scene.pscn --size 240x180 -o $scene >out || { cat out; failed=1; }
+same() {
+  "$PSCN" check "../$1.pscn" --size 240x180 -o page >out || { cat out; exit 1; }
   grep -E '^(as written|u_steps 6)' out
-done
+}
+for scene in teapot bezier; do beside same $scene; done
+all_right || failed=1
 exit "$failed"

@@ -64,13 +64,13 @@ bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3
   <-4, 1, 0>, <-4/3, 1, 0>, <4/3, 1, 0>, <4, 1, 0>, <-4, 3, 0>, <-4/3, 3, 0>, <4/3, 3, 0>, <4, 3, 0>
   pigment { PAINT } finish { ambient 0.2 diffuse 0.5 phong 0.3 specular 0.2 } }
 END
-cp rest lit
 # same COLOUR PAINT BEGINNING
-same() {
-  sed "s/COLOUR/$1/; s/PAINT/$2/" lit >rest
+same() { beside judge "$@"; }
+judge() {
+  sed "s/COLOUR/$1/; s/PAINT/$2/" ../rest >rest
   render "$3" 48x36 +FN16
   "$PSCN" render scene.pscn -o ours.png --size 48x36 --bits 16 --quiet
-  "$PSCN" compare ours.png peer.png --fail $LIMIT --quiet || { echo "$3 $1 $2"; failed=1; }
+  "$PSCN" compare ours.png peer.png --fail $LIMIT --quiet || { echo "$3 $1 $2"; exit 1; }
 }
 for start in '' '#version 3.6;' '#version 3.6; global_settings { assumed_gamma 1.8 }' \
   '#version 3.7; global_settings { assumed_gamma 2.2 ambient_light rgb <0.5, 1, 2> }' \
@@ -84,4 +84,5 @@ for gamma in 1 1.8; do
   same 'srgbf <0.6, 0.5, 0.4, 0>' 'srgb C' "$start"
   same 'rgb C' 'color srgbft <0.6, 0.5, 0.4, 0, 0>' "$start"
 done
+all_right || failed=1
 exit $failed

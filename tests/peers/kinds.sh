@@ -49,8 +49,8 @@ while read -r line; do
 done <rows
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; [ $failed = 0 ] && exit 77 || exit 1; }
-for name in $(sed -n 's/^| \([^ ]*\) | read.*/\1/p' rows); do
-  [ -e "$here/$name" ] || continue
+same() {
+  local name=$1
   cp "$here/$name" .
   {
     echo '#version 3.7; global_settings { assumed_gamma 1 }'
@@ -60,8 +60,10 @@ for name in $(sed -n 's/^| \([^ ]*\) | read.*/\1/p' rows); do
     echo "#include \"$name\""
   } >scene.pscn
   "$PSCN" check scene.pscn --size 80x60 --steps 0 --grid 0 --failpercent 8 --failpsnr 25 --failmask 3 -o page \
-    >said 2>&1 || { echo "$name:"; cat said; failed=1; }
+    >checked 2>&1 || { echo "$name:"; cat checked; exit 1; }
   "$PSCN" render scene.pscn -o x.png --size 80x60 --quiet --stats x.json
-  [ "$(sed -n 's/.*"accepted": \([0-9]*\).*/\1/p' x.json)" -gt 100 ] || { echo "$name: nothing is seen"; failed=1; }
-done
+  [ "$(sed -n 's/.*"accepted": \([0-9]*\).*/\1/p' x.json)" -gt 100 ] || { echo "$name: nothing is seen"; exit 1; }
+}
+for name in $(sed -n 's/^| \([^ ]*\) | read.*/\1/p' rows); do [ ! -e "$here/$name" ] || beside same "$name"; done
+all_right || failed=1
 exit $failed

@@ -23,18 +23,13 @@ bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3
 EOF
 }
 
-failed=0
-count=0
 # check FINISH LIGHTS [GLOBAL_SETTINGS]
-check() {
-  count=$((count + 1))
+check() { beside same "$@"; }
+same() {
   scene "$1" "$2" "${3:-}" >scene.pscn
   povray +Iscene.pscn +Opeer.png +W48 +H36 -D +FN16 -A >povray.log 2>&1 || { cat povray.log; exit 1; }
   "$PSCN" render scene.pscn -o ours.png --size 48x36 --bits 16 --quiet
-  if ! "$PSCN" compare ours.png peer.png --fail $LIMIT --quiet; then
-    echo "  finish { $1 }  $2  ${3:-}"
-    failed=1
-  fi
+  "$PSCN" compare ours.png peer.png --fail $LIMIT --quiet || { echo "  finish { $1 }  $2  ${3:-}"; exit 1; }
 }
 
 before='light_source { <2, 3, -4>, rgb <1, 0.9, 0.8> }'
@@ -63,5 +58,4 @@ check 'specular 0.5' "$behind $fill"
 check 'ambient 0.2 diffuse 0.5 brilliance 1.5 phong 0.2 phong_size 30 specular 0.3 roughness 0.08' \
   "$before $near $fill $grazing" 'ambient_light 0.5'
 check 'diffuse 2 specular 3' "$before" # clipped
-[ "$failed" -eq 0 ] && echo "$count finishes agree with POV-Ray to $LIMIT"
-exit "$failed"
+all_right && echo "${#children[@]} finishes agree with POV-Ray to $LIMIT"
