@@ -112,7 +112,6 @@ ssize_t __wrap_write(int file, const void *bytes, size_t size)
   return fails(WRITE) ? failure(ENOSPC) : __real_write(file, bytes, size);
 }
 
-
 /* Nothing here need outlast the machine, and a disk would take most of the test's time. */
 int __wrap_fsync(int file)
 {
