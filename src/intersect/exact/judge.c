@@ -122,26 +122,11 @@ void judge_left(struct judge *j, double near, double far)
 
 /* ---- regions ---- */
 
-static int by_patch(const void *a, const void *b)
-{
-  const struct exact_region *x = a, *y = b;
-  return x->patch < y->patch ? -1 : x->patch > y->patch;
-}
-
 static int by_distance(const void *a, const void *b)
 {
   const struct exact_region *x = a, *y = b;
-  return x->near != y->near ? (x->near < y->near ? -1 : 1) : by_patch(a, b);
-}
-
-/* Sorts the regions, each patch once. Returns how many there are. */
-static size_t sort_regions(struct exact_region regions[], size_t count, bool all)
-{
-  size_t kept = 0;
-  if (count > 1) qsort(regions, count, sizeof *regions, all ? by_patch : by_distance);
-  for (size_t k = 0; k < count; k++)
-    if (kept == 0 || regions[kept - 1].patch != regions[k].patch) regions[kept++] = regions[k];
-  return kept;
+  if (x->near != y->near) return x->near < y->near ? -1 : 1;
+  return x->patch < y->patch ? -1 : x->patch > y->patch;
 }
 
 /* A region gets its share of the work that is left, or this much, so that one in which the ray lies leaves some for the
@@ -160,11 +145,11 @@ static bool is_met_behind(const struct judge *j, uint32_t patch)
 static void search(struct judge *j)
 {
   struct exact_region *regions = j->asked->regions;
-  const bool all = j->asks == JUDGE_ALL;
+  const size_t count = j->asked->region_count;
   const size_t known = j->asks == JUDGE_NEAREST && j->asked->known; /* its patch may be searched, too */
-  const size_t count = sort_regions(regions, j->asked->region_count, all);
-  for (size_t k = 0; k < count && (all || regions[k].near <= j->limit); k++) {
-    if (is_met_behind(j, regions[k].patch)) continue;
+  if (count > 1) qsort(regions, count, sizeof *regions, by_distance);
+  for (size_t k = 0; k < count && regions[k].near <= j->limit; k++) {
+    if (is_met_behind(j, regions[k].patch) || (k > 0 && regions[k].patch == regions[k - 1].patch)) continue;
     const int64_t left = j->pool.work, fair = left / (int64_t)(count - k + known);
     const int64_t share = fair > LEAST_SHARE ? fair : left < LEAST_SHARE ? left : LEAST_SHARE;
     j->pool.work = share;

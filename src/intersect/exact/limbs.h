@@ -81,16 +81,6 @@ static inline void limbs_subtract(limb *out, const limb *a, const limb *b, int n
   for (int k = 0; k < n; k++) sum += (limb_pair)a[k] + ~b[k], out[k] = (limb)sum, sum >>= LIMB_BITS;
 }
 
-/* out = a w0 + b w1; a and b of n limbs, the weights less than 2^62 */
-static inline void limbs_blend(limb *out, const limb *a, const limb *b, int n, limb w0, limb w1)
-{
-  limb_pair sum = 0;
-  for (int k = 0; k < n; k++) {
-    sum += (limb_pair)a[k] * w0 + (limb_pair)b[k] * w1;
-    out[k] = (limb)sum, sum >>= LIMB_BITS;
-  }
-}
-
 /* out = a b; out is neither of them */
 static inline void limbs_product(limb *restrict out, int n, const limb *a, int na, const limb *b, int nb)
 {

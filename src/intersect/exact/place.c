@@ -4,7 +4,7 @@
  * lies. Whether it lies exactly on one of them is decided by equality: in a corner of a piece both polynomials are zero;
  * on some borders one is zero all along (sight.h); t of a flat patch is the same all over it.
  */
-#include "intersect/exact/place.h"
+#include "intersect/exact/judge.h"
 
 #include <math.h>
 

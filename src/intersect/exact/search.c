@@ -7,7 +7,7 @@
 
 #include "base/real.h"
 #include "geometry/edges.h"
-#include "intersect/exact/place.h"
+#include "intersect/exact/judge.h"
 
 /* Pieces are not halved below this size, as a part of the patch. Roots that the ray passes at a distance of 2^-100 of
  * the patch from a tangency are 2^-50 apart. */

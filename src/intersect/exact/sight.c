@@ -150,14 +150,13 @@ static bool divide(struct piece *piece, int k, int border, struct pool *pool)
   limb *out = pool_net(pool, limbs);
   if (!out) return false;
   static const limb weight[4][2] = {{9, 0}, {3, 3}, {3, 1}, {0, 3}};
-  for (int n = 0; n < 4; n++) {
-    const int first = edge_at(border, n);
-    limb c[4][PIECE_LIMBS_MAX];
-    for (int row = 0; row < 4; row++) limbs_copy(c[row], limbs, piece->net[k] + (first + row * inward) * in, in);
-    for (int row = 0; row < 4; row++) {
-      const int from = row < 2 ? 1 : 2;
-      limbs_blend(out + (first + row * inward) * limbs, c[from], c[from + 1], limbs, weight[row][0], weight[row][1]);
-    }
+  for (int c = 0; c < 16; c++) {
+    const int n = c / 4, row = c % 4, at = edge_at(border, n) + row * inward;
+    const limb *from = piece->net[k] + (edge_at(border, n) + (row < 2 ? 1 : 2) * inward) * in;
+    limb last[PIECE_LIMBS_MAX + 1];
+    limbs_product(out + at * limbs, limbs, &weight[row][0], 1, from, in);
+    limbs_product(last, limbs, &weight[row][1], 1, from + inward * in, in);
+    limbs_add(out + at * limbs, out + at * limbs, last, limbs);
   }
   piece->net[k] = out, piece->limbs[k] = limbs;
   trim(piece, k);

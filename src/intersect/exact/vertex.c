@@ -10,9 +10,6 @@
 #include "geometry/edges.h"
 #include "intersect/exact/judge.h"
 
-/* How often a pole's directions are halved until they turn by less than half a turn. */
-enum { TURN_HALVINGS = 16 };
-
 /* The vertex in one patch: it lies between two borders, and the walk goes from `in` to `out`. */
 struct wedge {
   uint32_t patch;
@@ -100,26 +97,14 @@ static double angle(struct direction a, struct direction b)
 /* What is nearer to half a turn may be one the other way. A choice of caution: angles are right to some 2^-50. */
 #define HALF_TURN (3.14159 - 0x1p-20)
 
-static struct direction middle(struct direction a, struct direction b)
-{
-  return (struct direction){(a.x + b.x) / 2, (a.y + b.y) / 2};
-}
-
 /* Adds the angle along a cubic of directions, whose control values must not be normed one by one. It does not go through
- * the origin, and turns as its ends do, if its control values lie in a half plane: turned from the first by less than a
- * quarter. */
-static bool add_along(const struct direction c[4], int halvings, double *sum)
+ * the origin, and turns as its ends do, if its control values lie in a half plane. */
+static bool add_along(const struct direction c[4], double *sum)
 {
-  bool near = true;
-  for (int n = 1; n < 4; n++) near = near && fabs(angle(c[0], c[n])) < HALF_TURN / 2;
-  if (near) *sum += angle(c[0], c[3]);
-  if (near || halvings == 0) return near;
-  struct direction half[2][4], level[4] = {c[0], c[1], c[2], c[3]};
-  for (int n = 0; n < 4; n++) {
-    half[0][n] = level[0], half[1][3 - n] = level[3 - n];
-    for (int k = 0; k + n < 3; k++) level[k] = middle(level[k], level[k + 1]);
-  }
-  return add_along(half[0], halvings - 1, sum) && add_along(half[1], halvings - 1, sum);
+  double low = 0, high = 0;
+  for (int n = 1; n < 4; n++) low = real_min(low, angle(c[0], c[n])), high = real_max(high, angle(c[0], c[n]));
+  *sum += angle(c[0], c[3]);
+  return high - low < HALF_TURN;
 }
 
 /* The row of control values next to a pole of which one is not the vertex: the directions from it. */
@@ -148,7 +133,7 @@ static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
   const struct piece *plane = &j->sight.plane;
   struct direction in, out, between, row[4];
   if (!j->seen) return false;
-  if (w->pole >= 0) return pole_directions(plane, w, row) && add_along(row, TURN_HALVINGS, sum);
+  if (w->pole >= 0) return pole_directions(plane, w, row) && add_along(row, sum);
   if (!border_direction(plane, w->in, w->end, &in) || !border_direction(plane, w->out, out_end(w), &out)) return false;
   double turn = angle(in, out);
   if (fabs(turn) > HALF_TURN) { /* a smooth corner: by way of the control point between the two */
