@@ -186,7 +186,7 @@ TEST(a_root_is_in_every_piece_that_holds_it)
     assert_true(sight_make(s.P, &s.ray, &pool, &sight));
     bool on = sight.dependent;
     for (int k = 0; k < 4; k++) {
-      const int border = k < sight.borders ? sight.border[k].border : -1;
+      const int border = k < sight.borders ? sight.border[k] : -1;
       on |= border >= 0 && s.at[border / 2] == (border & 1 ? OF : 0);
       on |= (sight.met >> k & 1) && s.at[k / 2] == (k & 1 ? OF : 0);
     }

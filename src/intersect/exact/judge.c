@@ -133,23 +133,16 @@ static int by_distance(const void *a, const void *b)
  * others: what a ray next to a tangency takes. */
 enum { LEAST_SHARE = 512 * WORK_PIECE };
 
-/* Whether the patch is met where the known root is, which is of an earlier patch of the same surface. */
-static bool is_met_behind(const struct judge *j, uint32_t patch)
-{
-  const struct exact_root *known = j->asks == JUDGE_NEAREST ? j->asked->known : NULL;
-  const uint32_t *surface = j->asked->model->surface;
-  return known && surface && surface[patch] != 0 && surface[patch] == surface[known->patch] && known->patch < patch;
-}
-
 /* Searches the case's regions, the first that the ray meets first. */
 static void search(struct judge *j)
 {
   struct exact_region *regions = j->asked->regions;
-  const size_t count = j->asked->region_count;
   const size_t known = j->asks == JUDGE_NEAREST && j->asked->known; /* its patch may be searched, too */
-  if (count > 1) qsort(regions, count, sizeof *regions, by_distance);
+  size_t count = 0;
+  if (j->asked->region_count > 1) qsort(regions, j->asked->region_count, sizeof *regions, by_distance);
+  for (size_t k = 0; k < j->asked->region_count; k++) /* those of one patch are next to each other */
+    if (count == 0 || regions[count - 1].patch != regions[k].patch) regions[count++] = regions[k];
   for (size_t k = 0; k < count && regions[k].near <= j->limit; k++) {
-    if (is_met_behind(j, regions[k].patch) || (k > 0 && regions[k].patch == regions[k - 1].patch)) continue;
     const int64_t left = j->pool.work, fair = left / (int64_t)(count - k + known);
     const int64_t share = fair > LEAST_SHARE ? fair : left < LEAST_SHARE ? left : LEAST_SHARE;
     j->pool.work = share;

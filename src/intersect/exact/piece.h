@@ -106,7 +106,6 @@ enum piece_verdict {
 /* A root, in parameters of the piece: `at` is off by at most `radius`, the same for both. */
 struct piece_root {
   double at[2], radius;
-  bool touches;     /* the Jacobian may vanish there */
   double box[2][2]; /* of an open piece: no root is outside of [box[k][0], box[k][1]] in u, v; always set */
 };
 

@@ -49,13 +49,6 @@ struct placing {
   struct depth depth;
 };
 
-static bool zoom(struct piece *piece, const struct piece_root *root, struct pool *pool, struct piece *out)
-{
-  double box[2][2];
-  for (int k = 0; k < 2; k++) box[k][0] = root->at[k] - 16 * root->radius, box[k][1] = root->at[k] + 16 * root->radius;
-  return piece_box(piece, box, pool, out);
-}
-
 /* The corner of the piece that is nearest to the root, if the root may be there and both polynomials are 0 there. */
 static bool in_corner(struct placing *p)
 {
@@ -71,7 +64,7 @@ static bool in_corner(struct placing *p)
 /* Sets p->on. Returns whether the root is in the patch. */
 static enum place_within in_patch(struct placing *p)
 {
-  const int own = p->from->border >= 0 ? p->j->sight.border[p->from->border].border : -1;
+  const int own = p->from->border >= 0 ? p->j->sight.border[p->from->border] : -1;
   unsigned unknown = 0;
   p->on = own >= 0 ? 1u << own : 0;
   for (int border = 0; border < 4; border++) {
@@ -97,11 +90,9 @@ static enum place_within in_range(struct placing *p)
  * of 6 times a coefficient, with some 8 roundings each; and the second derivatives, at most 36, times that of u and v. */
 #define JACOBIAN_ERROR ((double)(2 * 36 * (24 + 8 + 12) * WIDE_ROUNDOFF))
 
-/* See exact_root.side. The patch lies left of a border's tangent as the Jacobian's sign, and the ways in which the border
- * and the way inward run, say. */
-static int border_side(const struct placing *p, const struct exact_root *root)
+/* The sign of the Jacobian of (a,b) by (u,v) at the root; 0 if it may vanish. */
+static int jacobian_sign(const struct placing *p, const struct exact_root *root)
 {
-  static const int sense[4] = {-1, 1, 1, -1};
   wide wu[4], wv[4], eu[3], ev[3], x[4][4], du[2] = {0, 0}, dv[2] = {0, 0}, most[2] = {0, 0};
   bool exact;
   wide_cubic(root->u, wu, eu);
@@ -116,8 +107,8 @@ static int border_side(const struct placing *p, const struct exact_root *root)
         du[k] += eu[n] * wv[m] * (x[n + 1][m] - x[n][m]), dv[k] += wu[m] * ev[n] * (x[m][n + 1] - x[m][n]);
   }
   const wide jacobian = du[0] * dv[1] - dv[0] * du[1];
-  if (p->on & (p->on - 1) || wide_abs(jacobian) <= JACOBIAN_ERROR * most[0] * most[1]) return 0;
-  return jacobian > 0 ? sense[__builtin_ctz(p->on)] : -sense[__builtin_ctz(p->on)];
+  if (wide_abs(jacobian) <= JACOBIAN_ERROR * most[0] * most[1]) return 0;
+  return jacobian > 0 ? 1 : -1;
 }
 
 static struct exact_root found_root(const struct placing *p)
@@ -138,17 +129,19 @@ static struct exact_root found_root(const struct placing *p)
 }
 
 /* Reports a root of which nothing better will be known. */
-static void report(const struct placing *p, enum place_within inside, enum place_within within, bool touched)
+static void report(const struct placing *p, enum place_within inside, enum place_within within)
 {
+  static const int sense[4] = {-1, 1, 1, -1}; /* of the way in which a border runs, and the way inward */
   struct judge *j = p->j;
   struct exact_root found = found_root(p);
   const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
+  const bool touches = p->corner && !p->on && j->asks == JUDGE_ALL && jacobian_sign(p, &found) == 0;
   if (within == PLACE_UNKNOWN) {
     judge_undecided(j, from);
-  } else if (inside == PLACE_UNKNOWN || (touched && !p->on && j->asks == JUDGE_ALL)) {
+  } else if (inside == PLACE_UNKNOWN || touches) {
     judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
   } else {
-    if (p->on) found.side = border_side(p, &found);
+    if (__builtin_popcount(p->on) == 1) found.side = sense[__builtin_ctz(p->on)] * jacobian_sign(p, &found);
     judge_root(j, &found);
   }
 }
@@ -156,11 +149,11 @@ static void report(const struct placing *p, enum place_within inside, enum place
 void place_root(struct judge *j, const struct waiting *it, const struct piece_root *root)
 {
   const size_t before = j->pool.used;
-  const bool touched = root->touches;
   struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
   for (int zooms = 0;; zooms++) {
     struct piece closer;
     struct piece_root next;
+    double box[2][2];
     if (!piece_exact(&p.piece, &j->pool)) {
       judge_undecided(j, it->near);
       break;
@@ -171,12 +164,14 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
     if (inside == PLACE_OUT || within == PLACE_OUT) break;
     const struct exact_root found = found_root(&p);
     enum piece_verdict verdict = PIECE_OPEN;
+    for (int k = 0; k < 2; k++)
+      box[k][0] = p.root.at[k] - 16 * p.root.radius, box[k][1] = p.root.at[k] + 16 * p.root.radius;
     if (zooms < ZOOMS && !(inside == PLACE_IN && within == PLACE_IN && judge_sharp(&found)) &&
-        zoom(&p.piece, &p.root, &j->pool, &closer))
+        piece_box(&p.piece, box, &j->pool, &closer))
       verdict = piece_root(&closer, true, &j->pool, &next);
     if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
     if (verdict == PIECE_OPEN) {
-      report(&p, inside, within, touched);
+      report(&p, inside, within);
       break;
     }
     p.piece = closer, p.root = next;

@@ -150,29 +150,39 @@ static void newton(struct row row[2], const double along[2], double contraction,
 
 /* ---- tangents ---- */
 
-/* Value and derivatives in the middle, along e and across it (e turned left). */
-struct bend {
-  double value, along, across, along2, mixed, across2;
+/* Value and derivatives in the middle. */
+struct series {
+  double value, u, v, uu, uv, vv;
 };
 
-static struct bend bend(const double net[4][4], const double e[2])
+static struct series series(const double net[4][4])
 {
   static const double value[4] = {0.125, 0.375, 0.375, 0.125}, first[4] = {-0.75, -0.75, 0.75, 0.75},
                       second[4] = {3, -3, -3, 3};
-  double f = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+  struct series f = {.value = 0};
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
       const double x = net[i][j];
-      f += value[i] * value[j] * x, u += first[i] * value[j] * x, v += value[i] * first[j] * x;
-      uu += second[i] * value[j] * x, uv += first[i] * first[j] * x, vv += value[i] * second[j] * x;
+      f.value += value[i] * value[j] * x, f.u += first[i] * value[j] * x, f.v += value[i] * first[j] * x;
+      f.uu += second[i] * value[j] * x, f.uv += first[i] * first[j] * x, f.vv += value[i] * second[j] * x;
     }
   }
-  return (struct bend){f,
-                       u * e[0] + v * e[1],
-                       v * e[0] - u * e[1],
-                       uu * e[0] * e[0] + 2 * uv * e[0] * e[1] + vv * e[1] * e[1],
-                       (vv - uu) * e[0] * e[1] + uv * (e[0] * e[0] - e[1] * e[1]),
-                       uu * e[1] * e[1] - 2 * uv * e[0] * e[1] + vv * e[0] * e[0]};
+  return f;
+}
+
+/* The largest difference of a control value of the net from those of its series, of first or second order. */
+static double series_off(const double net[4][4], const struct series *f, bool second)
+{
+  double off = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double u = i / 3.0 - 0.5, v = j / 3.0 - 0.5; /* of (u - 1/2)^2 they are uu */
+      const double uu = i * (i - 1) / 6.0 - u - 0.25, vv = j * (j - 1) / 6.0 - v - 0.25;
+      const double bend = second ? f->uu / 2 * uu + f->uv * u * v + f->vv / 2 * vv : 0;
+      off = real_max(off, fabs(net[i][j] - (f->value + f->u * u + f->v * v + bend)));
+    }
+  }
+  return off;
 }
 
 /* Roundings of a number in [0, 1], of which the box takes no notice otherwise. */
@@ -210,41 +220,30 @@ static bool square_range(double c, double d, double k, double off, double range[
 }
 
 /* Next to a tangency the row f is small and changes little along the curve s = 0, s one of a and b, but the piece
- * reaches to either side of that. With e along the gradient of s in the middle, the curve lies in a strip about the line
- * across e, as wide as s differs from its tangent plane. In there f is nearly a square function of the place x across e:
- * its Taylor series differs from that by what contains the place along e, and by terms of third order. Where that leaves
- * room for a zero is all that can hold a common one: `box`, of a size 3/2 powers of the piece's. Returns whether there may
- * be one. */
-static bool tangent_box(const double s[4][4], double s_error, const double gradient[2], const struct row *row,
-                        double box[2][2])
+ * reaches to either side of that. With e along the gradient of s in the middle, the curve lies in a strip across e, as
+ * wide as s differs from its tangent plane. In there f is nearly a square function of the place across e: it differs from
+ * that by what contains the place along e, and by terms of third order. Where that leaves room for a zero is all that can
+ * hold a common one: `box`, of a size 3/2 powers of the piece's. Returns whether there may be one. */
+static bool tangent_box(const double s_net[4][4], double s_error, const struct row *row, double box[2][2])
 {
-  const double steep = hypot(gradient[0], gradient[1]), e[2] = {gradient[0] / steep, gradient[1] / steep};
+  const struct series s = series(s_net), f = series(row->net);
+  const double steep = hypot(s.u, s.v), e[2] = {s.u / steep, s.v / steep};
   if (!(steep > s_error)) return true;
-  const struct bend f = bend(row->net, e), t = bend(s, e);
-  double off_s = 0, off = 0, most_s = 0, most_f = 0;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) { /* control values of the series: of (u - 1/2)^2 they are uu */
-      const double u = i / 3.0 - 0.5, v = j / 3.0 - 0.5, along = e[0] * u + e[1] * v, across = e[0] * v - e[1] * u;
-      const double uu = i * (i - 1) / 6.0 - u - 0.25, vv = j * (j - 1) / 6.0 - v - 0.25, uv = u * v;
-      const double square = e[0] * e[0] * uu + 2 * e[0] * e[1] * uv + e[1] * e[1] * vv;
-      const double across_square = e[1] * e[1] * uu - 2 * e[0] * e[1] * uv + e[0] * e[0] * vv;
-      const double both = (vv - uu) * e[0] * e[1] + uv * (e[0] * e[0] - e[1] * e[1]);
-      const double series = f.value + f.along * along + f.across * across + f.along2 / 2 * square + f.mixed * both +
-                            f.across2 / 2 * across_square;
-      most_f = real_max(most_f, fabs(row->net[i][j])), most_s = real_max(most_s, fabs(s[i][j]));
-      off_s = real_max(off_s, fabs(s[i][j] - (t.value + t.along * along)));
-      off = real_max(off, fabs(row->net[i][j] - series));
-    }
-  }
-  /* The nets' errors, and roundings of sums: derivatives are up to 5, second ones up to 24 times as large as the net */
-  off_s += s_error + 32 * UNIT_ROUNDOFF * most_s, off += row->error + 256 * UNIT_ROUNDOFF * most_f;
-  double range[2][2] = {{real_max(-1, (-t.value - off_s) / t.along), real_min(1, (-t.value + off_s) / t.along)}};
+  /* the nets' errors; roundings of sums of coefficients of at most 1, times up to 24 */
+  const double off_s = series_off(s_net, &s, false) + s_error + 64 * UNIT_ROUNDOFF;
+  double range[2][2] = {{real_max(-1, (-s.value - off_s) / steep), real_min(1, (-s.value + off_s) / steep)}};
   const double middle = (range[0][0] + range[0][1]) / 2, half = (range[0][1] - range[0][0]) / 2; /* of the strip */
   if (half < 0) return false;
-  const double slope = f.along + f.along2 * middle;
-  off += half * (fabs(slope) + fabs(f.mixed) + fabs(f.along2) / 2 * half);
-  const double value = f.value + (f.along + f.along2 / 2 * middle) * middle;
-  return square_range(value, f.across + f.mixed * middle, f.across2 / 2, off, range[1]) && cut_box(box, e, range);
+  double most = 0;
+  for (int c = 0; c < 16; c++) most = real_max(most, fabs(row->net[c / 4][c % 4]));
+  const double along = f.u * e[0] + f.v * e[1], across = f.v * e[0] - f.u * e[1];
+  const double along2 = f.uu * e[0] * e[0] + 2 * f.uv * e[0] * e[1] + f.vv * e[1] * e[1];
+  const double across2 = f.uu * e[1] * e[1] - 2 * f.uv * e[0] * e[1] + f.vv * e[0] * e[0];
+  const double mixed = (f.vv - f.uu) * e[0] * e[1] + f.uv * (e[0] * e[0] - e[1] * e[1]);
+  const double off = series_off(row->net, &f, true) + row->error + 256 * UNIT_ROUNDOFF * most +
+                     half * (fabs(along + along2 * middle) + fabs(mixed) + fabs(along2) / 2 * half);
+  const double value = f.value + (along + along2 / 2 * middle) * middle;
+  return square_range(value, across + mixed * middle, across2 / 2, off, range[1]) && cut_box(box, e, range);
 }
 
 /* ---- the decision ---- */
@@ -280,14 +279,13 @@ enum piece_verdict piece_root(struct piece *piece, bool fine, struct pool *pool,
     const double(*x)[2] = slopes.value;
     const int steep = fabs(x[1][0]) + fabs(x[1][1]) > fabs(x[0][0]) + fabs(x[0][1]);
     const struct row *flat = &row[fabs(x[steep][0]) > fabs(x[steep][1])];
-    return tangent_box(piece->value[steep], piece->error[steep], x[steep], flat, out->box) ? PIECE_OPEN : PIECE_EMPTY;
+    return tangent_box(piece->value[steep], piece->error[steep], flat, out->box) ? PIECE_OPEN : PIECE_EMPTY;
   }
   newton(row, along, contraction, out);
   double outside = 0;
   for (int k = 0; k < 2; k++) outside = real_max(outside, real_max(-out->at[k], out->at[k] - 1));
   if (outside > out->radius) return PIECE_EMPTY;
   if (!(out->radius <= PIECE_MARGIN / 2)) return PIECE_OPEN;
-  out->touches = false;
   return PIECE_ROOT;
 }
 

@@ -58,21 +58,13 @@ static bool corner_alone(struct judge *j, const struct piece *piece, int u, int 
   return false;
 }
 
-/* Whether the Jacobian may vanish in such a corner of an exact piece. */
-static bool corner_touches(const struct piece *piece, int u, int v)
-{
-  const double(*a)[4] = piece->value[NET_A], (*b)[4] = piece->value[NET_B];
-  const int beside_u = u ? 2 : 1, beside_v = v ? 2 : 1;
-  return fabs(a[beside_u][v] * b[u][beside_v] - a[u][beside_v] * b[beside_u][v]) <= 8 * PIECE_ERROR;
-}
-
 /* Decides a piece with a root in one of its corners. */
 static bool decide_corner(struct judge *j, struct waiting *it)
 {
   for (int corner = 0; corner < 4; corner++) {
     const int u = corner / 2, v = corner % 2;
     if (!piece_corner_root(&it->piece, u, v, &j->pool) || !corner_alone(j, &it->piece, 3 * u, 3 * v)) continue;
-    const struct piece_root root = {.at = {u, v}, .radius = 0, .touches = corner_touches(&it->piece, 3 * u, 3 * v)};
+    const struct piece_root root = {.at = {u, v}, .radius = 0};
     place_root(j, it, &root);
     return true;
   }
@@ -129,7 +121,7 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
                             struct piece out[PARTS_MAX])
 {
   const struct piece *piece = &it->piece;
-  struct piece *whole = it->border < 0 ? &j->sight.off : &j->sight.border[it->border].on;
+  struct piece *whole = it->border < 0 ? &j->sight.off : &j->sight.on[it->border];
   double at[2], far = 0;
   bool side[2][2];
   for (int k = 0; k < 2; k++) {
@@ -197,28 +189,18 @@ static void search_run(struct judge *j, struct waiting waiting[], int count)
 /* A border all of whose points are on the ray: a pole, which is hit there, or a line along the ray. */
 static void report_met(struct judge *j, int border)
 {
-  double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
-  const struct piece *plane = &j->sight.plane;
-  const bool pole = edge_is_point(P, border);
+  struct exact_root pole = {.patch = j->patch, .borders = 1u << border};
+  struct depth depth = {.error = 0};
   double near = INFINITY, at[2];
-  for (int n = 0; n < 4; n++) {
-    struct depth depth = {.error = 0};
-    depth.w = piece_coefficient(plane, NET_W, edge_at(border, n), &depth.exact);
-    const wide t = depth.w / j->sight.along;
-    near = real_min(near, (double)t);
-    if (!pole) continue;
-    edge_place(border, 0.5, at);
-    const struct exact_root root = {.patch = j->patch,
-                                    .borders = 1u << border,
-                                    .u = at[0],
-                                    .v = at[1],
-                                    .t = t,
-                                    .t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t))};
-    if (place_in_range(j, &depth) == PLACE_IN) judge_root(j, &root);
-    return;
+  for (int n = 3; n >= 0; n--) {
+    depth.w = piece_coefficient(&j->sight.plane, NET_W, edge_at(border, n), &depth.exact);
+    pole.t = depth.w / j->sight.along, near = real_min(near, (double)pole.t);
   }
-  edge_place(border, 0, at);
-  judge_maybe(j, at[0], at[1], near, 4 * UNIT_ROUNDOFF * fabs(near), near);
+  edge_place(border, 0.5, at);
+  pole.u = at[0], pole.v = at[1], pole.t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(pole.t));
+  if (!edge_is_point(j->asked->model->scene->patches[j->patch].P, border))
+    judge_maybe(j, at[0], at[1], near, 4 * UNIT_ROUNDOFF * fabs(near), near);
+  else if (place_in_range(j, &depth) == PLACE_IN) judge_root(j, &pole);
 }
 
 /* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */
@@ -243,7 +225,7 @@ void exact_search(struct judge *j, uint32_t patch, double near)
   const size_t before = j->pool.used;
   for (int k = -1; k < j->sight.borders; k++) {
     waiting[count] = (struct waiting){
-      .piece = k < 0 ? j->sight.off : j->sight.border[k].on, .keep = j->pool.used, .border = k};
+      .piece = k < 0 ? j->sight.off : j->sight.on[k], .keep = j->pool.used, .border = k};
     set_reach(j, &waiting[count++]);
   }
   for (int k = 0; k < 4; k++)

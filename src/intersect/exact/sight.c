@@ -3,6 +3,7 @@
 
 #include "base/real.h"
 #include "geometry/edges.h"
+#include "intersect/local_ray.h"
 
 /* ---- the ray's planes ---- */
 
@@ -44,13 +45,6 @@ static void trim(struct piece *piece, int k)
   piece->limbs[k] = limbs, piece->exponent[k] += twos;
 }
 
-/* The axis along which d is longest. */
-static int longest_axis(const double d[3])
-{
-  const int k = fabs(d[1]) > fabs(d[0]);
-  return fabs(d[2]) > fabs(d[k]) ? 2 : k;
-}
-
 /* Sets y to the control points less the origin along an axis. Returns whether all are equal. */
 static bool axis_make(double (*P)[4][3], double from, int axis, struct unit unit, limb *y)
 {
@@ -83,7 +77,7 @@ static bool sight_plane(double (*P)[4][3], const struct ray *ray, struct pool *p
     flat[axis] = axis_make(P, ray->origin[axis], axis, unit, y[axis]);
     limbs_double(direction[axis], way.limbs, d[axis], way.low);
   }
-  const int k = longest_axis(d);
+  const int k = dominant_axis(d);
   for (int n = 0; n < 2; n++) {
     const int i = (k + 1 + n) % 3;
     for (int m = 0; m < 2; m++)
@@ -187,12 +181,11 @@ static bool set_on(const struct piece *from, int kept, int border, struct pool *
 static bool exchange(struct sight *s, int border, struct pool *pool)
 {
   struct piece *piece = &s->off;
-  int kept = 0, largest = 0;
+  int kept = row_zero(piece, 0, border), largest = 0;
   for (int k = 0; k < 2; k++)
     for (int n = 0; n < 4; n++)
       if (fabs(row_value(piece, k, border, n)) > fabs(row_value(piece, kept, border, largest))) kept = k, largest = n;
-  if (row_value(piece, kept, border, largest) == 0) kept = row_zero(piece, 0, border), largest = 0;
-  while (limbs_zero(at_border(piece, kept, border, largest), piece->limbs[kept])) largest++;
+  while (limbs_zero(at_border(piece, kept, border, largest), piece->limbs[kept])) largest++; /* of values of 0 */
   /* the combination b_p a - a_p b */
   int limbs;
   limb *net = piece_combine(piece, (struct weight){at_border(piece, 1, border, largest), piece->limbs[1]},
@@ -200,9 +193,8 @@ static bool exchange(struct sight *s, int border, struct pool *pool)
   if (!net) return false;
   bool zero = true;
   for (int c = 0; c < 16 && zero; c++) zero = limbs_zero(net + c * limbs, limbs);
-  struct sight_border *out = &s->border[s->borders++];
-  *out = (struct sight_border){.border = border};
-  if (!set_on(piece, kept, border, pool, &out->on)) return false;
+  s->border[s->borders] = border;
+  if (!set_on(piece, kept, border, pool, &s->on[s->borders++])) return false;
   if (zero) s->dependent |= !piece_misses(piece); /* multiples of each other, and zero somewhere */
   if (!zero) {
     const int exponent = piece->exponent[0] + piece->exponent[1];

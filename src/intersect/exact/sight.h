@@ -15,20 +15,15 @@
 #include "intersect/exact/piece.h"
 #include "intersect/intersect.h"
 
-/* A border whose curve is on a line through the origin. */
-struct sight_border {
-  int border;      /* number as of geometry/edges.h */
-  struct piece on; /* its roots are those on the border: a is the kept polynomial there, b the distance */
-};
-
 struct sight {
   struct piece plane; /* the ray's own a and b */
   struct piece off;   /* the same after all exchanges: it has all roots of the patch off the borders listed below */
   bool dependent;     /* a and b are multiples of each other: the ray lies in the plane of a flat patch */
   unsigned met;       /* borders all of whose points are on the ray, as bits */
-  struct sight_border border[4];
-  int borders;
-  double along; /* t = w / along */
+  int borders;        /* so many have their curves on a line through the origin: */
+  int border[4];      /* their numbers as of geometry/edges.h */
+  struct piece on[4]; /* its roots are those on the border: a is the kept polynomial there, b the distance */
+  double along;       /* t = w / along */
 };
 
 /* Nets are in the pool. False if there is no room. */

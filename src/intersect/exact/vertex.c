@@ -97,43 +97,30 @@ static double angle(struct direction a, struct direction b)
 /* What is nearer to half a turn may be one the other way. A choice of caution: angles are right to some 2^-50. */
 #define HALF_TURN (3.14159 - 0x1p-20)
 
-/* Adds the angle along a cubic of directions, whose control values must not be normed one by one. It does not go through
- * the origin, and turns as its ends do, if its control values lie in a half plane. */
-static bool add_along(const struct direction c[4], double *sum)
+/* Adds the angle along the first row of control values from a pole on which not all are the pole. The cubic of directions
+ * does not go through the origin, and turns as its ends do, if they are not the pole, and lie in a half plane with those
+ * between that are not. */
+static bool add_pole(const struct piece *plane, const struct wedge *w, double *sum)
 {
+  struct direction c[4] = {{0, 0}};
+  bool there[4] = {false};
+  for (int row = 1; row < 4 && !(there[0] || there[1] || there[2] || there[3]); row++)
+    for (int n = 0; n < 4; n++)
+      there[n] = direction_at(plane, edge_at(w->pole, w->in & 1 ? 3 - n : n) + row * edge_inward(w->pole), &c[n]);
   double low = 0, high = 0;
-  for (int n = 1; n < 4; n++) low = real_min(low, angle(c[0], c[n])), high = real_max(high, angle(c[0], c[n]));
+  for (int n = 1; n < 4; n++)
+    if (there[n]) low = real_min(low, angle(c[0], c[n])), high = real_max(high, angle(c[0], c[n]));
   *sum += angle(c[0], c[3]);
-  return high - low < HALF_TURN;
-}
-
-/* The row of control values next to a pole of which one is not the vertex: the directions from it. */
-static bool pole_directions(const struct piece *plane, const struct wedge *w, struct direction out[4])
-{
-  for (int row = 1; row < 4; row++) {
-    wide x[4][2], size = 0;
-    bool exact;
-    for (int n = 0; n < 4; n++) {
-      const int at = edge_at(w->pole, w->in & 1 ? 3 - n : n) + row * edge_inward(w->pole);
-      for (int k = 0; k < 2; k++) {
-        x[n][k] = piece_coefficient(plane, k, at, &exact);
-        size = wide_max(size, wide_abs(x[n][k]));
-      }
-    }
-    for (int n = 0; n < 4 && size > 0; n++)
-      out[n] = (struct direction){(double)(x[n][0] / size), (double)(x[n][1] / size)};
-    if (size > 0) return true;
-  }
-  return false;
+  return there[0] && there[3] && high - low < HALF_TURN;
 }
 
 /* Adds the angle of a wedge of the current patch. */
 static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
 {
   const struct piece *plane = &j->sight.plane;
-  struct direction in, out, between, row[4];
+  struct direction in, out, between;
   if (!j->seen) return false;
-  if (w->pole >= 0) return pole_directions(plane, w, row) && add_along(row, sum);
+  if (w->pole >= 0) return add_pole(plane, w, sum);
   if (!border_direction(plane, w->in, w->end, &in) || !border_direction(plane, w->out, out_end(w), &out)) return false;
   double turn = angle(in, out);
   if (fabs(turn) > HALF_TURN) { /* a smooth corner: by way of the control point between the two */
