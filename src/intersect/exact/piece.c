@@ -203,18 +203,17 @@ enum { LENGTH_BITS = 20, PLACE_BITS = 60 };
 
 bool piece_part(struct piece *piece, int axis, limb from, limb to, int log2, struct pool *pool, struct piece *out)
 {
-  const limb of = (limb)1 << log2;
   const double ends[2] = {ldexp((double)from, -log2), ldexp((double)to, -log2)};
   if ((piece->log2[axis] + log2 > PLACE_BITS || piece->length[axis] * (to - from) >> LENGTH_BITS) &&
       !piece_exact(piece, pool))
     return false;
   *out = *piece;
-  if (from == 0 && to == of) return true;
+  if (to - from == (limb)1 << log2) return true;
   out->from[axis] = (piece->from[axis] << log2) + from * piece->length[axis];
   out->length[axis] = piece->length[axis] * (to - from), out->log2[axis] = piece->log2[axis] + log2;
   out->low[axis] += (wide)ends[0] * piece->size[axis], out->size[axis] *= ends[1] - ends[0];
   if (from > 0) out->borders &= ~(1u << (2 * axis));
-  if (to < of) out->borders &= ~(1u << (2 * axis + 1));
+  if (ends[1] < 1) out->borders &= ~(1u << (2 * axis + 1));
   for (int k = 0; k < NETS; k++) {
     cut(piece->value[k], axis, ends, out->value[k]);
     out->error[k] += 8 * UNIT_ROUNDOFF;

@@ -189,17 +189,19 @@ static void search_run(struct judge *j, struct waiting waiting[], int count)
 /* A border all of whose points are on the ray: a pole, which is hit there, or a line along the ray. */
 static void report_met(struct judge *j, int border)
 {
-  struct exact_root pole = {.patch = j->patch, .borders = 1u << border};
+  const bool is_pole = edge_is_point(j->asked->model->scene->patches[j->patch].P, border);
   struct depth depth = {.error = 0};
+  wide t[4];
   double near = INFINITY, at[2];
   for (int n = 3; n >= 0; n--) {
     depth.w = piece_coefficient(&j->sight.plane, NET_W, edge_at(border, n), &depth.exact);
-    pole.t = depth.w / j->sight.along, near = real_min(near, (double)pole.t);
+    t[n] = depth.w / j->sight.along, near = real_min(near, (double)t[n]);
   }
-  edge_place(border, 0.5, at);
-  pole.u = at[0], pole.v = at[1], pole.t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(pole.t));
-  if (!edge_is_point(j->asked->model->scene->patches[j->patch].P, border))
-    judge_maybe(j, at[0], at[1], near, 4 * UNIT_ROUNDOFF * fabs(near), near);
+  const int end = t[3] < t[0]; /* of a line, that which the ray meets first */
+  edge_place(border, is_pole ? 0.5 : end, at);
+  struct exact_root pole = {.patch = j->patch, .borders = 1u << border, .u = at[0], .v = at[1]};
+  pole.t = t[0], pole.t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t[0]));
+  if (!is_pole) judge_maybe(j, at[0], at[1], (double)t[3 * end], 4 * UNIT_ROUNDOFF * fabs((double)t[3 * end]), near);
   else if (place_in_range(j, &depth) == PLACE_IN) judge_root(j, &pole);
 }
 
