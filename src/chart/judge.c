@@ -60,26 +60,19 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
   *out = (struct judgement){.rays = count};
   for (size_t k = 0; k < count; k++) {
     const struct truth *truth = &truths[k];
-    const bool hit = isfinite(answers[k].t);
+    const bool hit = truth->kind == TRUTH_HIT, answered = isfinite(answers[k].t), both = hit && answered;
     if (truth->kind == TRUTH_UNDECIDED) {
       out->undecided++;
       continue;
     }
-    out->hits += truth->kind == TRUTH_HIT;
-    if (truth->kind == TRUTH_MISS) {
-      out->invented += hit;
-      if (hit) all[asked++] = 1;
-      continue;
-    }
-    if (!hit) {
-      out->lost++;
-      all[asked++] = 1;
-      continue;
-    }
-    const double error = fabs((answers[k].t - truth->t) - truth->t_rest) / truth->t;
+    if (!hit && !answered) continue;
+    const double error = both ? fabs((answers[k].t - truth->t) - truth->t_rest) / truth->t : INFINITY;
     const bool wrong = !(error <= JUDGE_WRONG);
-    out->wrong += wrong;
     const bool other_patch = answers[k].patch != ANSWER_PATCH_UNKNOWN && answers[k].patch != truth->patch;
+    out->hits += hit;
+    out->invented += !hit;
+    out->lost += !answered;
+    out->wrong += both && wrong;
     out->other_patch += !wrong && other_patch && !truth->shared;
     if (!wrong) errors[right++] = error;
     all[asked++] = wrong ? 1 : error;
