@@ -121,7 +121,7 @@ static struct ray_list make_rays(enum kind kind, const struct contestant *pscn, 
   if (hits == NULL) fail("out of memory");
   find_hits(pscn->tracer, &camera, hits);
   if (kind == SHADOW) {
-    if (rays_of_shadows(pscn->scene, &camera, hits, arena, &shadows) != STATUS_OK) fail("out of memory");
+    if (rays_of_shadows(pscn->scene, pscn->tracer, &camera, hits, arena, &shadows) != STATUS_OK) fail("out of memory");
     if (shadows.count == 0) fail("there are no shadow rays");
     return shadows;
   }
