@@ -5,8 +5,8 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
-#include "intersect/exact/judge.h"
-#include "intersect/point.h"
+#include "intersect/exact/exact.h"
+#include "intersect/local_ray.h"
 
 /* ---- the patch in wide arithmetic, from its control points P ---- */
 

@@ -12,7 +12,7 @@
 
 enum { SEED = 20261126, PATCHES = 400, RAYS = 32, FARTHEST = 36 };
 
-/* How much a normal may be off: intersect/point.h. */
+/* How much a normal may be off: intersect/local_ray.h. */
 #define SURE 0x1p-18
 
 /* Kinds of poles: a border is one point; so is the row behind it; or part of that row. */

@@ -141,23 +141,11 @@ static struct answers last_step(const struct packet *p, const struct model_patch
 /* Lanes whose answer is in doubt, whatever it is. */
 static unsigned packet_doubt(const struct packet *p) { return p->model->unproven ? ~0u : lanes_bits(p->best.doubt); }
 
-static struct exact_case lane_case(const struct packet *p, unsigned lane)
-{
-  struct postponed *postponed = p->postponed;
-  return (struct exact_case){.model = p->model,
-                             .ray = &p->rays[lane],
-                             .regions = postponed->region[lane],
-                             .region_count = postponed->count[lane],
-                             .cut_from = postponed->cut_from[lane],
-                             .work = &p->tracer->counts.work,
-                             .limit = packet_exact_limit(p, lane)};
-}
-
 /* Has the last resort decide the lane. Returns whether the answer is written; otherwise it is the lane's best root. */
 static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 {
   struct best *best = &p->best;
-  struct exact_case wanted = lane_case(p, lane);
+  struct exact_case wanted = packet_case(p, lane);
   const struct exact_root known = packet_root(p, lane);
   struct exact_decision decision;
   if (best->patch[lane] != NO_PATCH) wanted.known = &known;
@@ -178,7 +166,7 @@ static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct
   const struct exact_root known = packet_root(p, lane);
   struct exact_root root = known;
   const bool certain = p->best.certain[lane];
-  struct exact_case wanted = lane_case(p, lane);
+  struct exact_case wanted = packet_case(p, lane);
   wanted.known = &known;
   if (certain && known.t_error > LAST_PLACES * fabs((double)known.t)) exact_place(&wanted, &root);
   exact_hit(p->model, &p->rays[lane], &root, sure && certain, out);
@@ -192,7 +180,7 @@ unsigned finish_occluded(const struct packet *p, bool out[])
   if (p->oriented) hit = lanes_bits(p->best.patch != NO_PATCH) | packet_cut_off(p);
   for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    const struct exact_case wanted = lane_case(p, lane);
+    const struct exact_case wanted = packet_case(p, lane);
     const uint64_t before = *wanted.work;
     if (exact_occluded(&wanted)) hit |= 1u << lane;
     if (*wanted.work - before >= wanted.limit) p->postponed->exhausted |= 1u << lane;

@@ -61,19 +61,6 @@ void gather_postpone(struct packet *p, uint32_t patch, unsigned lane)
   if (region) *region = (struct exact_region){.patch = patch};
 }
 
-/* Makes the list of a lane's hits of what was found on it. Returns whether it is proven. */
-static bool decide(struct packet *p, unsigned lane)
-{
-  struct gathered *of = &p->gather->lane[lane];
-  const struct exact_case wanted = {.model = p->model,
-                                    .ray = &p->rays[lane],
-                                    .regions = of->regions.at,
-                                    .region_count = of->regions.count,
-                                    .work = &p->tracer->counts.work,
-                                    .limit = packet_exact_limit(p, lane)};
-  return exact_all(&wanted, &of->found) && !p->best.doubt[lane];
-}
-
 static struct hit answer(const struct packet *p, unsigned lane, const struct exact_found *found)
 {
   struct hit hit;
@@ -87,8 +74,9 @@ unsigned gather_finish(struct packet *p, const int *exponents, struct list_place
   struct tracer *tracer = p->tracer;
   unsigned grazing = 0;
   for (unsigned lane = 0; lane < p->count; lane++) {
-    const struct exact_list *list = &p->gather->lane[lane].found;
-    bool certain = decide(p, lane);
+    struct exact_list *list = &p->gather->lane[lane].found;
+    const struct exact_case wanted = packet_case(p, lane);
+    bool certain = exact_all(&wanted, list) && !p->best.doubt[lane];
     const size_t first = tracer->hits.count;
     struct hit *hits = growing_add(&tracer->hits, list->count, sizeof *hits);
     tracer->failed |= list->failed || !hits;

@@ -11,7 +11,6 @@
 #include "base/double_lanes.h"
 #include "intersect/exact/exact.h"
 #include "intersect/lanes/names.h"
-#include "intersect/point.h"
 #include "intersect/tracer.h"
 
 #define NO_PATCH INT64_MAX
@@ -163,11 +162,19 @@ LANES_INLINE unsigned packet_cut_off(const struct packet *p)
   return lanes_bits(p->postponed->cut_from < INFINITY) | p->postponed->exhausted;
 }
 
-/* What is left of that ray's budget, in boxes of the last resort. */
-static inline uint64_t packet_exact_limit(const struct packet *p, unsigned lane)
+/* What the lane leaves to the last resort, with what is left of its ray's budget. */
+static inline struct exact_case packet_case(const struct packet *p, unsigned lane)
 {
-  const int64_t left = p->postponed->left[lane];
-  return left > 0 ? (uint64_t)left / COST_EXACT : 0;
+  struct postponed *postponed = p->postponed;
+  const struct growing *gathered = p->gather ? &p->gather->lane[lane].regions : NULL;
+  const int64_t left = postponed->left[lane];
+  return (struct exact_case){.model = p->model,
+                             .ray = &p->rays[lane],
+                             .regions = gathered ? gathered->at : postponed->region[lane],
+                             .region_count = gathered ? gathered->count : postponed->count[lane],
+                             .cut_from = postponed->cut_from[lane],
+                             .work = &p->tracer->counts.work,
+                             .limit = left > 0 ? (uint64_t)left / COST_EXACT : 0};
 }
 
 /* Charges each ray that cost: (a mask & a number is that number on the lanes of the mask, and 0 on the others). The
@@ -191,8 +198,7 @@ LANES_INLINE void packet_untried(struct packet *p)
  * many packets never come near one. */
 void packet_orient(struct packet *p);
 
-/* packet.c: sets the lines in the frame of a patch, as local_ray.c does for one ray. Orients the packet first, if no
- * leaf was tried before. */
+/* packet.c: sets the lines in the frame of a patch. Orients the packet first, if no leaf was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
 /* Lanes whose root at t, in units of the packet's directions, is nearer to the ray's start than `part` of the patch's
