@@ -1,4 +1,4 @@
-/* The certificate: the Newton-Kantorovich test, on which every answer that is called certain stands.
+/* The certificate: the Newton-Kantorovich test, by which the lanes prove each root that they take.
  *
  * Theorem. Let f be a pair of polynomials whose values are known up to `error` (beside [0,1]^2 this is more than the
  * error of the coefficients), J its Jacobian as computed, z the last point but one of Newton's method, M the computed

@@ -7,9 +7,10 @@
  * the exact patches, borders included. Of patches that are equally near the first is reported. A miss means that there
  * is no such point. `certain` means that this is proven. `grazing` means that it is not: the ray touches a surface
  * exactly, lies in one, or passes so near such a place that its share of work does not suffice. A hit is then reported
- * if one cannot be excluded. A border, a corner or a pole that the ray meets exactly is a certain hit, even where the
- * surface is open there. A list of all hits is then grazing, because it does not follow on which side of the surface
- * the ray is.
+ * if one cannot be excluded. A corner or a pole that the ray meets exactly is a certain hit, even where the surface is
+ * open there, and so is a border in one plane with the ray; at other places exactly on a border, or within some 2^-160
+ * of the patch from there, the ray is grazing. At an open border a list of all hits is grazing in any case, because it
+ * does not follow on which side of the surface the ray is.
  *
  * The answer to a ray does not depend on the other rays of its packet, with these exceptions: its last places, if
  * another hit is so near that double precision does not show which comes first; its last places and its certainty, if
@@ -59,8 +60,9 @@ struct hit {
  *
  * `certain`: it is proven that there are `count` hits, that each is listed, and that this is their order. So a ray
  * whose t_max is infinite starts inside a closed surface if `count` is odd, and outside if it is even. `grazing`: not
- * proven, because the ray touches a surface or a crease from outside, meets an open border, or its share of work did
- * not suffice. The list then has the proven hits and the possible ones, which are grazing themselves. */
+ * proven, because the ray touches a surface or a crease from outside, meets an open border, or one that is not in a
+ * plane with it, or its share of work did not suffice. The list then has the proven hits and the possible ones, which
+ * are grazing themselves. */
 struct hit_list {
   enum certainty certainty;
   size_t count;
@@ -70,7 +72,7 @@ struct hit_list {
 /* The stages of a candidate: a ray and a leaf whose box it passes (lanes/candidate.h). */
 enum stage {
   STAGE_BILINEAR,  /* the resultant of degree 2 of the leaf's bilinear part */
-  STAGE_PLANES,    /* hulls of the plane polynomials */
+  STAGE_PLANES,    /* the planes' polynomials are set, and pieces of the leaf examined */
   STAGE_RESULTANT, /* the resultant of full degree is formed */
   STAGE_ROOTS,     /* the roots of the resultant are sought */
   STAGE_COUNT
@@ -82,7 +84,7 @@ struct intersect_counts {
   uint64_t roots_found, roots_accepted;
   uint64_t stages[STAGE_COUNT]; /* candidates that came to each */
   uint64_t escalated;           /* candidates left to the last resort (exact/exact.h) */
-  uint64_t work;                /* of the last resort, in boxes that it might have examined */
+  uint64_t work;                /* of the last resort, in pieces that it might have examined */
   uint64_t certain, grazing;    /* answers by certainty, except of any-hit rays */
 };
 

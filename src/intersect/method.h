@@ -2,8 +2,7 @@
  *
  * Internal to src/intersect. Everything that a `solver` statement can choose happens here: the basis, the determinant,
  * the solver, its start, and how v follows from u. The results are starting points; with `polish on` the caller proves
- * them. A solver without items that change its numbers runs on all lanes at once
- * instead (lanes/resultant.c).
+ * them. A solver without items that change its numbers runs on all lanes at once instead (lanes/resultant.c).
  */
 #ifndef PSCN_INTERSECT_METHOD_H
 #define PSCN_INTERSECT_METHOD_H

@@ -4,10 +4,10 @@
  *
  * Every patch has its own frame: world = center + scale * local, where scale is a power of two and center has few bits,
  * so that |local| <= 1 and the conversion rounds almost nothing. All algebra is done in local coordinates, so scale and
- * offset of a scene cost no accuracy. A patch is cut into leaves (prepare/cut.h). The
- * hierarchy holds leaves, and rays are tried on leaves. Where there are many patches, copies of a declared object share
- * the object's leaves (copies.h). If there are still too many, neither patches nor leaves are kept: they are made anew
- * from the scene whenever a ray comes to one, with the same bits every time.
+ * offset of a scene cost no accuracy. A patch is cut into leaves (prepare/cut.h). The hierarchy holds leaves, and rays
+ * are tried on leaves. Where there are many patches, copies of a declared object share the object's leaves
+ * (prepare/copies.h). If there are still too many, neither patches nor leaves are kept: they are made anew from the
+ * scene whenever a ray comes to one, with the same bits every time.
  */
 #ifndef PSCN_INTERSECT_MODEL_H
 #define PSCN_INTERSECT_MODEL_H
@@ -52,7 +52,7 @@ struct model_patch {
 struct leaf_parts {
   double base[4][3];  /* c, A, B, C; coordinates are adjacent, because they are also read side by side */
   double rest[16][3]; /* coefficient of s^i t^j at rest[4 * i + j] */
-  double error;       /* bound on what rounding the rest adds to local_ray.error in either plane's polynomial */
+  double error;       /* bound on what rounding the rest adds to PLANE_ERROR in either plane's polynomial */
   bool final;         /* its rounding is so small that its roots need no last step */
   double
     last_step; /* after a step up to this, in leaf parameters, the root is right to the rounding of its coordinates */

@@ -93,8 +93,8 @@ enum { RAY_BUDGET = 1 << 18 };
 enum { BUDGET_IN_COMPANY = 3 };
 
 /* Making a leaf that is not kept; being tried on a leaf, once the slab test in doubles passes; the planes' polynomials;
- * a box of a leaf's parameters; the resultant and one of its roots; a box that the last resort examines. Sweeps over
- * all roots of r cost a unit for so many products of roots. */
+ * a piece of a leaf; the resultant and one of its roots; a piece that the last resort examines. Sweeps over all roots
+ * of r cost a unit for so many products of roots. */
 enum { COST_MADE = 32, COST_TRIED = 16, COST_PLANES = 24, COST_BOX = 4, COST_RESULTANT = 64, COST_EXACT = 32 };
 enum { PRODUCTS_A_UNIT = 8 };
 

@@ -21,16 +21,17 @@
  *
  * Rays and patches are taken exactly as given in doubles. A hit is the nearest point with t_min < t < t_max where they
  * meet; a miss means that there is none. `certain` is 1 if this is proven. It is 0, "grazing", if exact arithmetic does
- * not decide within the ray's limit of work: at a tangency, or if the ray lies in a surface. A hit is then reported
- * wherever one cannot be excluded, except one that may lie on either side of t_min or t_max.
+ * not decide within the ray's limit of work: at a tangency, on some borders (below), or if the ray lies in a surface. A
+ * hit is then reported wherever one cannot be excluded, except one that may lie on either side of t_min or t_max.
  *
  * Points no farther apart than 2^-106 of their patches, or 2^-105 of t, count as one t, and the hit is on the patch that
- * comes first. So a ray that crosses a patch nearer than some 1e-32 of its size to the border with another one may be
- * reported on that one, with a parameter of exactly 0 or 1.
+ * comes first. On which side of a border a ray passes is decided to some 1e-48 of the patch's size. Nearer to a border
+ * of two patches the hit is on either of them, and grazing.
  *
- * A ray that meets a border or corner of a patch exactly hits it. The nearest hit is certain there even if the surface
- * is open. The answer of pscn_all is then grazing, because there the ray neither crosses the surface nor passes it by.
- * Both are grazing if the ray touches a patch at such a point.
+ * A ray that meets a border or corner of a patch exactly hits it. The hit is certain in a corner, at a pole, and on a
+ * border in one plane with the ray, such as a straight one, even if the surface is open there; pscn_all's answer is
+ * then grazing, because the ray neither crosses the surface nor passes it by. Both are grazing exactly on another
+ * border, with few exceptions, and if the ray touches a patch at such a point.
  *
  * t of a certain hit is off by no more than four times what one rounding of each number of the ray and the patch can
  * change it. In tests with cusps, poles and near tangencies no t was off by more than 3e-16 of itself. Where the ray

@@ -6,13 +6,15 @@
  *
  * The lanes take a root only where double precision leaves no question: the root is proven, strictly inside its patch,
  * strictly within the ray's range, and not next to another one. Everything they leave open comes here as a list of
- * patches. The order of work: judge.c takes them in the order in which the ray meets them; sight.c writes a patch, as the
- * ray sees it, as nets of integers; search.c halves them (piece.c) until each piece has no root or one; place.c computes a
- * root to 2^-106 of its patch; judge.c decides what it means for the answer; all.c and vertex.c count hits. A root of the
- * lanes that is next to another one is not used: its patch is searched.
+ * patches. The order of work: judge.c takes them in the order in which the ray meets them; sight.c writes a patch, as
+ * the ray sees it, as nets of integers; search.c divides them (piece.c) until each piece has no root or one (root.c);
+ * place.c computes a root to 2^-106 of its patch; judge.c decides what it means for the answer; all.c and vertex.c
+ * count hits. A root of the lanes that is next to another one is not used: its patch is searched.
  *
- * A ray meets a patch in its borders and corners, too. All decisions are exact except these: two roots that are that near
- * to each other are one, or are met at one t; and what is open when the work is used up is `grazing`.
+ * A ray meets a patch in its borders and corners, too. All decisions are exact, except that two roots that near to each
+ * other are one, or are met at one t. What is not decided is `grazing`: what is open when the work is used up; and a
+ * root exactly on a border, or within some 2^-160 of the patch from it, unless it is in a corner of a piece or the ray
+ * lies in one plane with the border (sight.h).
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H

@@ -1,6 +1,6 @@
 /* The case of one ray: what a search finds, and what it means for the answer.
  *
- * Internal to src/intersect/exact. Layers: piece, sight, search; then judge; then vertex and all.
+ * Internal to src/intersect/exact. Layers: piece and sight; search and place; judge; vertex and all.
  */
 #ifndef PSCN_INTERSECT_EXACT_JUDGE_H
 #define PSCN_INTERSECT_EXACT_JUDGE_H

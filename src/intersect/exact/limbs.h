@@ -1,9 +1,9 @@
 /* Signed integers of a few limbs.
  *
  * Internal to src/intersect/exact. A number is `n` limbs, the least first, in two's complement. All functions are exact
- * if the result fits into the limbs of `out`; whoever calls sees to that. out may be an operand. Nothing allocates, no
- * number is longer than some dozen limbs, and only sums, means and products are needed,
- * so these loops stand here rather than a library of integers of any size.
+ * if the result fits into the limbs of `out`; whoever calls sees to that. out may be an operand, but not of a product.
+ * Nothing allocates, numbers of ordinary rays are a few limbs long, and only sums and products are needed. So these
+ * loops stand here rather than a library of integers of any size.
  */
 #ifndef PSCN_INTERSECT_EXACT_LIMBS_H
 #define PSCN_INTERSECT_EXACT_LIMBS_H

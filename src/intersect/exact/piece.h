@@ -9,9 +9,10 @@
  *     a = y_i d_k - y_k d_i,   b = y_j d_k - y_k d_j,
  *
  * and w = y_n for some axis n, so t = w / d_n at a root. Doubles are integers times powers of two, so the nets of a, b
- * and w are nets of integers, each times a power of two of its own, and so are those over any part of the patch with
- * rational ends: nothing is rounded. But tests work on the same nets in doubles, with a bound on their errors, and pieces
- * are cut in doubles. Where that leaves too few digits a piece is made exact, and its parts begin anew from there.
+ * and w are nets of integers, each times a power of two of its own, and so are those over any part of the patch whose
+ * ends are multiples of a power of two: nothing is rounded. But tests work on the same nets in doubles, with a bound on
+ * their errors, and pieces are cut in doubles. Where that leaves too few digits a piece is made exact, and its parts
+ * begin anew from there.
  */
 #ifndef PSCN_INTERSECT_EXACT_PIECE_H
 #define PSCN_INTERSECT_EXACT_PIECE_H

@@ -1,7 +1,7 @@
 /* Finds all that a ray hits in a patch, by dividing pieces of it until each has no root or one (piece.h).
  *
- * The piece that begins first along the ray is next; those behind the nearest hit so far are dropped. Where two roots
- * are one, or a patch lies along the ray, pieces become as small as LEAST_SIZE and are reported as undecided.
+ * Pieces behind the nearest hit so far are dropped. Where two roots are one, or a patch lies along the ray, pieces
+ * become as small as LEAST_SIZE and are reported as undecided.
  */
 #include <math.h>
 
@@ -147,8 +147,8 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
   return count;
 }
 
-/* Divides the piece: the part that holds the box, or its halves. Returns how many of them
- * may hold a root, or -1 if there was no room. */
+/* Divides the piece: the parts that hold the box, or its halves. Returns how many of them may hold a root, or -1 if
+ * there was no room. */
 static int divide(struct judge *j, struct waiting *it, const double box[2][2], struct waiting out[PARTS_MAX])
 {
   struct piece part[PARTS_MAX];

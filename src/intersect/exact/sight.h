@@ -5,9 +5,9 @@
  * As the ray sees it, a border is a cubic curve in the plane of (a,b), and the ray is the origin. Where that curve lies
  * on a line through the origin, some combination p a + q b is zero along the border, so it is divisible by the distance
  * from the border. The kept polynomial (a or b) and the quotient have the same zeros off the border, and simple ones
- * however near to it. So it is at a border that is one point (a pole) or whose inner handles have no length, and where
- * the ray lies in the plane of a flat border. The roots on such a border are those of the kept polynomial there: they
- * are the roots of the pair (kept polynomial on the border, distance).
+ * however near to it. So it is at a border that is one point (a pole), at a straight one that the ray meets, and at one
+ * in whose plane the ray lies. The roots on such a border are those of the kept polynomial there: they are the roots of
+ * the pair (kept polynomial on the border, distance).
  */
 #ifndef PSCN_INTERSECT_EXACT_SIGHT_H
 #define PSCN_INTERSECT_EXACT_SIGHT_H

@@ -96,8 +96,7 @@ lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
  * that has no sign variation. */
 lane_mask stage_resultant(struct candidate *it, lane_mask open);
 
-/* resultant.c: finds the roots of r by the scene's method. Closes lanes where they are proven to be
- * all. */
+/* resultant.c: finds the roots of r by the scene's method. Closes lanes where they are proven to be all. */
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: without polish the roots of r are the answer, proven or not. */

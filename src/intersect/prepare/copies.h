@@ -3,7 +3,7 @@
  * Internal to src/intersect. A ray is taken to the object's coordinates by x -> (x - b) W. W and b are doubles, and the
  * map is exact; any values do, as long as they carry the copy's patches to the object's. Because W, b and all nets are
  * rounded, how well they do is measured, and counts as an error of the object's control points; so do the roundings of
- * the ray on its way. What this leaves undecided in the object is decided in the scene, on a leaf cut for it.
+ * the ray on its way. What this leaves undecided in the object goes to the last resort, as the copy's own patch.
  */
 #ifndef PSCN_INTERSECT_PREPARE_COPIES_H
 #define PSCN_INTERSECT_PREPARE_COPIES_H

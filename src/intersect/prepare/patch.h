@@ -1,4 +1,4 @@
-/* One patch of the scene, prepared: its frame, its true degree, how far it is cut.
+/* One patch of the scene, prepared: its frame, its net there, its poles.
  *
  * Internal to src/intersect. Safe on any thread for different patches: the cut of one is kept in model->cuts.
  */
