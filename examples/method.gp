@@ -24,9 +24,10 @@ set cntrparam levels discrete 0
 
 # ---- a leaf with its bilinear part ----
 
-eval net('X', '0 0.02 -0.02 0 0.35 0.34 0.33 0.33 0.66 0.66 0.68 0.67 1 1.02 0.98 1')
-eval net('Y', '0 0.33 0.67 1 0.02 0.34 0.68 1.02 -0.02 0.33 0.66 0.98 0 0.34 0.66 1')
-eval net('Z', '0 0.16 0.22 0.12 0.26 0.5 0.52 0.3 0.22 0.46 0.56 0.4 -0.06 0.2 0.3 0.26')
+X_net = '0 0.02 -0.02 0 0.35 0.34 0.33 0.33 0.66 0.66 0.68 0.67 1 1.02 0.98 1'
+Y_net = '0 0.33 0.67 1 0.02 0.34 0.68 1.02 -0.02 0.33 0.66 0.98 0 0.34 0.66 1'
+Z_net = '0 0.16 0.22 0.12 0.26 0.5 0.52 0.3 0.22 0.46 0.56 0.4 -0.06 0.2 0.3 0.26'
+do for [name in 'X Y Z'] { eval net(name, value(name.'_net')) }
 array O = [0.62, -0.22, 1.2]    # the ray's start
 array D = [0.30, 0.62, -1.14]   # and direction, longest along z
 do for [name in 'X Y Z'] { eval flat(name) }
@@ -200,4 +201,151 @@ plot $a using 1:2 with lines lw 2 lc rgb blue title 'a = 0', $b using 1:2 with l
 set title 'a and the quotient'
 plot $a using 1:2 with lines lw 2 lc rgb blue title 'a = 0', \
   $q using 1:2 with lines lw 2 lc rgb green title '((b_0/a_0) a - b)/u = 0'
+unset multiplot
+
+# ---- a strip about the steeper curve, and the box that is left (src/intersect/exact/root.c, tangent_box) ----
+
+# Control values of x = u - 1/2 and y = v - 1/2, their squares and cubes: coefficient n = 4 i + j.
+x1(n) = (n / 4) / 3.0 - 0.5; x2(n) = (n / 4) * (n / 4 - 1) / 6.0 - x1(n) - 0.25
+x3(n) = (n / 4 == 0 || n / 4 == 2 ? -1 : 1) / 8.0
+y1(n) = x1(4 * (n % 4)); y2(n) = x2(4 * (n % 4))
+A = ''; B = ''
+do for [n = 0:15] {
+  A = A.sprintf('%.12g ', y1(n) + 0.03 + 0.1 * x1(n) + 0.2 * x2(n) + 0.05 * x1(n) * y1(n))
+  B = B.sprintf('%.12g ', 0.9 * (y1(n) + 0.03 + 0.1 * x1(n)) - 0.16 * x2(n) + 0.004 + 0.04 * x3(n))
+}
+eval net('a', A)
+eval net('b', B)
+a_u = (a(0.5 + e, 0.5) - a(0.5 - e, 0.5)) / (2 * e)
+a_v = (a(0.5, 0.5 + e) - a(0.5, 0.5 - e)) / (2 * e)
+b_v = (b(0.5, 0.5 + e) - b(0.5, 0.5 - e)) / (2 * e)
+F = ''
+do for [n = 1:16] { F = F.sprintf('%.12g ', b_v * word(A, n) - a_v * word(B, n)) }
+eval net('f', F)
+h = 1e-3
+f_u = (f(0.5 + h, 0.5) - f(0.5 - h, 0.5)) / (2 * h); f_v = (f(0.5, 0.5 + h) - f(0.5, 0.5 - h)) / (2 * h)
+f_uu = (f(0.5 + h, 0.5) - 2 * f(0.5, 0.5) + f(0.5 - h, 0.5)) / h**2
+f_vv = (f(0.5, 0.5 + h) - 2 * f(0.5, 0.5) + f(0.5, 0.5 - h)) / h**2
+f_uv = (f(0.5 + h, 0.5 + h) - f(0.5 + h, 0.5 - h) - f(0.5 - h, 0.5 + h) + f(0.5 - h, 0.5 - h)) / (4 * h**2)
+off_s = 0; off_f = 0
+do for [n = 0:15] {
+  d = abs(word(A, n + 1) - (a(0.5, 0.5) + a_u * x1(n) + a_v * y1(n))); off_s = d > off_s ? d : off_s
+  d = abs(word(F, n + 1) - (f(0.5, 0.5) + f_u * x1(n) + f_v * y1(n) + f_uu / 2 * x2(n) + f_uv * x1(n) * y1(n) + f_vv / 2 * y2(n)))
+  off_f = d > off_f ? d : off_f
+}
+steep = sqrt(a_u**2 + a_v**2); e0 = a_u / steep; e1 = a_v / steep
+middle = -a(0.5, 0.5) / steep; half = off_s / steep
+along = f_u * e0 + f_v * e1; across = f_v * e0 - f_u * e1
+along2 = f_uu * e0**2 + 2 * f_uv * e0 * e1 + f_vv * e1**2
+across2 = f_uu * e1**2 - 2 * f_uv * e0 * e1 + f_vv * e0**2
+mixed = (f_vv - f_uu) * e0 * e1 + f_uv * (e0**2 - e1**2)
+off_f = off_f + half * (abs(along + along2 * middle) + abs(mixed) + abs(along2) / 2 * half)
+c0 = f(0.5, 0.5) + (along + along2 / 2 * middle) * middle; c1 = across + mixed * middle; c2 = across2 / 2
+root = sqrt(c1**2 - 4 * c2 * (c0 - off_f))
+array X[2] = [(-c1 - root) / (2 * c2), (-c1 + root) / (2 * c2)]
+px(k, x) = 0.5 + (middle + k * half) * e0 - x * e1     # side k of the strip
+py(k, x) = 0.5 + (middle + k * half) * e1 + x * e0
+g0(x) = c0 + c1 * x + c2 * x**2
+set contour base
+unset surface
+do for [f in 'a b'] { eval zero(f, f, 0, 1) }
+unset contour
+set surface
+set terminal svg size 900,380
+set output 'docs/method/tangency.svg'
+set multiplot layout 1,2
+unset title
+set grid
+set key above samplen 2
+set samples 101
+set xlabel 'u'; set ylabel 'v'
+set xtics 0.5; set ytics 0.5
+set xrange [0:1]; set yrange [0:1]
+set object 1 polygon from px(-1, -1),py(-1, -1) to px(-1, 1),py(-1, 1) \
+  to px(1, 1),py(1, 1) to px(1, -1),py(1, -1) to px(-1, -1),py(-1, -1) fc rgb '#dbe7f5' fs solid noborder behind
+array L[2] = [1, 1]; array H[2] = [0, 0]
+do for [k = -1:1:2] { do for [n = 1:2] {
+  x = px(k, X[n]); y = py(k, X[n])
+  L[1] = x < L[1] ? x : L[1]; H[1] = x > H[1] ? x : H[1]; L[2] = y < L[2] ? y : L[2]; H[2] = y > H[2] ? y : H[2]
+} }
+set object 2 rectangle from L[1],L[2] to H[1],H[2] fs empty border lc rgb red lw 2 front
+plot $a using 1:2 with lines lw 2 lc rgb blue title 'a = 0', $b using 1:2 with lines lw 2 lc rgb violet title 'b = 0', \
+  NaN with lines lw 6 lc rgb '#dbe7f5' title 'the strip', NaN with lines lw 2 lc rgb red title 'the box'
+unset object 1
+unset object 2
+set xlabel 'place along the strip'; set ylabel 'the row'
+set xrange [-0.5:0.5]; set yrange [-0.02:0.1]
+set ytics 0.05
+plot [x = -0.5:0.5] '+' using 1:(g0($1) - off_f):(g0($1) + off_f) with filledcurves lc rgb '#f3d9d9' title 'bounds', \
+  f(px(-1, x), py(-1, x)) lw 2 lc rgb green title 'on the sides of the strip', f(px(1, x), py(1, x)) lw 2 lc rgb green notitle, \
+  0 lc rgb 'gray50' notitle, '+' every ::0::0 using (X[1]):(0) with points pt 7 ps 0.7 lc rgb red notitle, \
+  '+' every ::0::0 using (X[2]):(0) with points pt 7 ps 0.7 lc rgb red notitle
+unset multiplot
+
+# ---- the resultants of three rays with the first figure's leaf ----
+
+# Polynomials are texts of coefficients in scaled Bernstein form, whose products are convolutions.
+at(c, k) = real(word(c, k + 1))
+choose(n, k) = gamma(n + 1) / gamma(k + 1) / gamma(n - k + 1)
+conv(x, y, n) = sum [i = 0:n] (i < words(x) && n - i < words(y) ? at(x, i) * at(y, n - i) : 0)
+array P[4]; array Q[4]; array M[12]; array E[3]; array R[3]; array first[3]; array last[3]
+o_x = '-0.6 1.2 1'; o_y = '0.8 0.2 -0.4' # where they start, z = 1.2
+do for [ray = 1:3] {
+  x0 = at(o_x, ray - 1); y0 = at(o_y, ray - 1)
+  do for [j = 0:3] {
+    P[j + 1] = ''; Q[j + 1] = ''
+    do for [i = 0:3] {
+      z = at(Z_net, 4 * i + j) - O[3]; c = choose(3, i) * choose(3, j)
+      P[j + 1] = P[j + 1].sprintf('%.15g ', c * (at(X_net, 4 * i + j) - x0 - D[1] / D[3] * z))
+      Q[j + 1] = Q[j + 1].sprintf('%.15g ', c * (at(Y_net, 4 * i + j) - y0 - D[2] / D[3] * z))
+    }
+  }
+  do for [k = 0:2] { do for [l = k + 1:3] {      # minor kl at 4 k + l
+    s = ''
+    do for [n = 0:6] { s = s.sprintf('%.15g ', conv(P[k + 1], Q[l + 1], n) - conv(P[l + 1], Q[k + 1], n)) }
+    M[4 * k + l] = s
+  } }
+  both = ''
+  do for [n = 0:6] { both = both.sprintf('%.15g ', at(M[3], n) + at(M[6], n)) }
+  E[1] = ''; E[2] = ''; E[3] = ''
+  do for [n = 0:12] {
+    E[1] = E[1].sprintf('%.15g ', conv(both, M[11], n) - conv(M[7], M[7], n))
+    E[2] = E[2].sprintf('%.15g ', conv(M[2], M[11], n) - conv(M[7], M[3], n))
+    E[3] = E[3].sprintf('%.15g ', conv(M[2], M[7], n) - conv(both, M[3], n))
+  }
+  R[ray] = ''; most = 0
+  do for [n = 0:18] {
+    r = (conv(M[1], E[1], n) - conv(M[2], E[2], n) + conv(M[3], E[3], n)) / choose(18, n)
+    R[ray] = R[ray].sprintf('%.15g ', r); most = abs(r) > most ? abs(r) : most
+  }
+  # coefficients of 1 at most; where the polygon crosses zero first and last
+  c = ''; first[ray] = NaN; last[ray] = NaN
+  do for [n = 0:18] { c = c.sprintf('%.6g ', at(R[ray], n) / most) }
+  do for [n = 1:18] {
+    if (at(c, n - 1) * at(c, n) < 0) {
+      last[ray] = (n - 1 + at(c, n - 1) / (at(c, n - 1) - at(c, n))) / 18
+      first[ray] = first[ray] == first[ray] ? first[ray] : last[ray]
+    }
+  }
+  R[ray] = c
+}
+r(c, u) = sum [n = 0:18] at(c, n) * choose(18, n) * u**n * (1 - u)**(18 - n)
+set terminal svg size 900,300
+set output 'docs/method/resultant.svg'
+set multiplot layout 1,3
+set key off
+set grid
+set samples 201
+set xtics 0.5; set ytics 1
+set xrange [0:1]; set yrange [-1.1:1.1]
+set xlabel 'u'; set ylabel 'r(u)'
+array N[19]
+do for [ray = 1:3] {
+  set title ray == 1 ? 'no variation: a miss' : ray == 2 ? 'one variation: one root' : 'two variations: no root or two'
+  plot 0 lc rgb 'gray50', \
+    N using (($1 - 1) / 18.0):(at(R[ray], int($1) - 1)) with linespoints pt 7 ps 0.5 lc rgb brown, \
+    [u = 1e-9:1 - 1e-9] '+' using 1:(r(R[ray], $1)) with lines lw 2 lc rgb blue, \
+    '+' every ::0::0 using (last[ray]):(0) with points pt 7 ps 0.9 lc rgb red, \
+    '+' every ::0::0 using (first[ray]):(0) with points pt 6 ps 1.2 lw 1.5 lc rgb red
+}
 unset multiplot
