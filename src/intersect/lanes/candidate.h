@@ -123,9 +123,8 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
  * scene's method. Removes lanes from *open where it finds none. */
 lanes method_quadratic_root(struct packet *p, const struct candidate *it, const lanes r[3], lane_mask *open);
 
-/* The most halvings of a leaf: before its resultant is formed, and when the lanes have found all they can. Choices of
- * speed. */
-enum { COVER_EARLY = 11, COVER_HALVINGS = 16 };
+/* The most halvings of a leaf. A choice of speed. */
+enum { COVER_HALVINGS = 24 };
 
 /* A proven root of every lane, in the order in which they were found. */
 struct known_root {

@@ -311,7 +311,7 @@ lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
   const struct newton_root *r = &it->first.at;
   const struct known_root known = {r, open & r->exists};
   lanes left[2] = {{0}, {0}};
-  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_EARLY, open, left);
+  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_HALVINGS, open, left);
   offer_root(p, it, &it->first, (p->any ? known.proven : covered & known.proven) & inside(r));
   open &= ~covered & p->live;
   if (!lanes_any(open)) return open;
