@@ -8,8 +8,8 @@
  * is no such point. `certain` means that this is proven. `grazing` means that it is not: the ray touches a surface
  * exactly, lies in one, or passes so near such a place that its share of work does not suffice. A hit is then reported
  * if one cannot be excluded. A corner or a pole that the ray meets exactly is a certain hit, even where the surface is
- * open there, and so is a border in one plane with the ray; at other places exactly on a border, or within some 2^-160
- * of the patch from there, the ray is grazing. At an open border a list of all hits is grazing in any case, because it
+ * open there, and so is a border in one plane with the ray, or where u and v are multiples of 2^-16; at other places
+ * exactly on a border, or within some 2^-160 of the patch from there, the ray is grazing. At an open border a list of all hits is grazing in any case, because it
  * does not follow on which side of the surface the ray is.
  *
  * The answer to a ray does not depend on the other rays of its packet, with these exceptions: its last places, if
@@ -60,8 +60,8 @@ struct hit {
  *
  * `certain`: it is proven that there are `count` hits, that each is listed, and that this is their order. So a ray
  * whose t_max is infinite starts inside a closed surface if `count` is odd, and outside if it is even. `grazing`: not
- * proven, because the ray touches a surface or a crease from outside, meets an open border, or one that is not in a
- * plane with it, or its share of work did not suffice. The list then has the proven hits and the possible ones, which
+ * proven, because the ray touches a surface or a crease from outside, meets an open border, or one where the nearest hit
+ * would be grazing, or its share of work did not suffice. The list then has the proven hits and the possible ones, which
  * are grazing themselves. */
 struct hit_list {
   enum certainty certainty;

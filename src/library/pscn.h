@@ -28,10 +28,10 @@
  * comes first. On which side of a border a ray passes is decided to some 1e-48 of the patch's size. Nearer to a border
  * of two patches the hit is on either of them, and grazing.
  *
- * A ray that meets a border or corner of a patch exactly hits it. The hit is certain in a corner, at a pole, and on a
- * border in one plane with the ray, such as a straight one, even if the surface is open there; pscn_all's answer is
- * then grazing, because the ray neither crosses the surface nor passes it by. Both are grazing exactly on another
- * border, with few exceptions, and if the ray touches a patch at such a point.
+ * A ray that meets a border or corner of a patch exactly hits it. The hit is certain in a corner, at a pole, on a border
+ * in one plane with the ray, such as a straight one, and where u and v are multiples of 2^-16, even if the surface is
+ * open there; pscn_all's answer is then grazing, because the ray neither crosses the surface nor passes it by. Both are
+ * grazing exactly at another place of a border, with few exceptions, and if the ray touches a patch at such a point.
  *
  * t of a certain hit is off by no more than four times what one rounding of each number of the ray and the patch can
  * change it. In tests with cusps, poles and near tangencies no t was off by more than 3e-16 of itself. Where the ray

@@ -13,10 +13,8 @@ bool exact_list_add(struct exact_list *list, const struct exact_found *found)
 {
   struct exact_found *at = memory_grow(list->at, &list->room, list->count + 1, sizeof *at);
   list->failed |= !at;
-  if (!at) return false;
-  list->at = at;
-  list->at[list->count++] = *found;
-  return true;
+  if (at) list->at = at, list->at[list->count++] = *found;
+  return at;
 }
 
 /* Marks what is left out; the mark is a patch that does not exist. */
@@ -145,25 +143,12 @@ static void order(struct judge *j)
   }
 }
 
-/* Whether all are hits, one clearly behind the other. */
-static bool clearly_apart(const struct exact_list *list)
-{
-  double reach = -INFINITY;
-  for (size_t k = 0; k < list->count; k++) {
-    const struct exact_found *found = &list->at[k];
-    const double t = (double)found->root.t, off = found->root.t_error + UNIT_ROUNDOFF * fabs(t);
-    if (found->kind != EXACT_INSIDE || t - off <= reach) return false;
-    reach = t + off;
-  }
-  return true;
-}
-
 bool exact_all(const struct exact_case *asked, struct exact_list *list)
 {
   struct judge j;
   list_sort(list);
   if (asked->model->unproven) return false;
-  if (asked->region_count == 0 && clearly_apart(list)) return true;
+  if (asked->region_count == 0 && !first_tied(list)) return true;
   judge_run(&j, asked, JUDGE_ALL, list);
   leave_out_same(&j);
   search_tied(&j);

@@ -13,7 +13,7 @@
  *
  * A ray meets a patch in its borders and corners, too. All decisions are exact, except that two roots that near to each
  * other are one, or are met at one t. What is not decided is `grazing`: what is open when the work is used up; and a
- * root exactly on a border, or within some 2^-160 of the patch from it, unless it is in a corner of a piece or the ray
+ * root exactly on a border, or within some 2^-160 of the patch from it, unless u and v are multiples of 2^-16 or the ray
  * lies in one plane with the border (sight.h).
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H

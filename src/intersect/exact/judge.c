@@ -57,15 +57,11 @@ bool judge_same(struct judge *j, const struct exact_root *a, const struct exact_
   return true;
 }
 
-/* Relative to t: two roots nearer to each other than this count as met at one t, if they are known so well. */
-#define ONE_T 0x1p-60
-
 int judge_compare(struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
   const wide apart = a->t - b->t, error = (wide)a->t_error + b->t_error;
   if (wide_abs(apart) > error) return apart < 0 ? -1 : 1;
-  if (!(judge_sharp(a) && judge_sharp(b)) && error > ONE_T * wide_abs(a->t))
-    judge_undecided(j, real_min(least_t(a), least_t(b)));
+  if (!(judge_sharp(a) && judge_sharp(b))) judge_undecided(j, real_min(least_t(a), least_t(b)));
   return 0;
 }
 

@@ -54,6 +54,9 @@ void exact_search(struct judge *j, uint32_t patch, double near);
 
 /* ---- place.c: where a root that is known to be in a piece lies ---- */
 
+/* Equalities are looked for at multiples of 2^-SIMPLE_BITS of the patch, and in corners of pieces. */
+enum { SIMPLE_BITS = 16 };
+
 /* A piece in which roots are sought. */
 struct waiting {
   struct piece piece;

@@ -1,8 +1,8 @@
 /* Where a root lies: in the patch or on its borders, within the ray's range or not, and how far along the ray.
  *
  * A root is zoomed in on until it is sharp, and it is known on which side of a border, and of the ray's start and end, it
- * lies. Whether it lies exactly on one of them is decided by equality: in a corner of a piece both polynomials are zero;
- * on some borders one is zero all along (sight.h); t of a flat patch is the same all over it.
+ * lies. Whether it lies exactly on one of them is decided by equality: at some multiples of 2^-16 both polynomials are
+ * zero; on some borders one is zero all along (sight.h); t of a flat patch is the same all over it.
  */
 #include "intersect/exact/judge.h"
 
@@ -49,15 +49,32 @@ struct placing {
   struct depth depth;
 };
 
-/* The corner of the piece that is nearest to the root, if the root may be there and both polynomials are 0 there. */
+/* Sets the depth of a root in a corner of the piece, which is exact. */
+static void set_corner_depth(struct placing *p)
+{
+  const int c = 12 * (int)p->root.at[0] + 3 * (int)p->root.at[1];
+  p->depth.w = piece_coefficient(&p->piece, NET_W, c, &p->depth.exact), p->depth.error = 0;
+}
+
+/* Whether both polynomials are 0 at the multiples of 2^-SIMPLE_BITS of the patch that are nearest to the root, and it may
+ * be there: then it is in a corner of a piece that ends there, which is now the root's. */
 static bool in_corner(struct placing *p)
 {
-  const int u = p->root.at[0] >= 0.5, v = p->root.at[1] >= 0.5;
-  if (fabs(p->root.at[0] - u) > p->root.radius || fabs(p->root.at[1] - v) > p->root.radius) return false;
-  if (!piece_corner_root(&p->piece, u, v, &p->j->pool)) return false;
-  p->root.at[0] = u, p->root.at[1] = v, p->root.radius = 0, p->corner = true;
-  p->depth.error = 0;
-  p->depth.w = piece_coefficient(&p->piece, NET_W, 12 * u + 3 * v, &p->depth.exact);
+  struct pool *pool = &p->j->pool;
+  struct piece part[3] = {p->from->border < 0 ? p->j->sight.off : p->j->sight.on[p->from->border]};
+  int end[2];
+  for (int k = 0; k < 2; k++) {
+    const wide here = p->piece.low[k] + p->piece.size[k] * p->root.at[k];
+    const double simple = real_clamp(rint(ldexp((double)here, SIMPLE_BITS)), 0, ldexp(1, SIMPLE_BITS));
+    const wide off = here - (wide)ldexp(simple, -SIMPLE_BITS);
+    end[k] = simple > 0;
+    if (wide_abs(off) > p->piece.size[k] * p->root.radius ||
+        !piece_part(&part[k], k, (limb)simple - (limb)end[k], (limb)simple + !end[k], SIMPLE_BITS, pool, &part[k + 1]))
+      return false;
+  }
+  if (!piece_corner_root(&part[2], end[0], end[1], pool)) return false;
+  p->piece = part[2], p->root.at[0] = end[0], p->root.at[1] = end[1], p->root.radius = 0, p->corner = true;
+  set_corner_depth(p);
   return true;
 }
 
@@ -78,12 +95,6 @@ static enum place_within in_patch(struct placing *p)
     return PLACE_IN;
   }
   return unknown ? PLACE_UNKNOWN : PLACE_IN;
-}
-
-static enum place_within in_range(struct placing *p)
-{
-  const enum place_within within = place_in_range(p->j, &p->depth);
-  return within == PLACE_UNKNOWN && !p->corner && in_corner(p) ? place_in_range(p->j, &p->depth) : within;
 }
 
 /* Relative to the largest coefficients of a and b: what rounds in a product of their derivatives, each a sum of 24 terms
@@ -158,9 +169,11 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
       judge_undecided(j, it->near);
       break;
     }
-    if (p.corner) (void)in_corner(&p);
+    if (p.corner) set_corner_depth(&p);
     else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
-    const enum place_within inside = in_patch(&p), within = inside == PLACE_OUT ? PLACE_OUT : in_range(&p);
+    const enum place_within inside = in_patch(&p);
+    enum place_within within = inside == PLACE_OUT ? PLACE_OUT : place_in_range(j, &p.depth);
+    if (within == PLACE_UNKNOWN && !p.corner && in_corner(&p)) within = place_in_range(j, &p.depth);
     if (inside == PLACE_OUT || within == PLACE_OUT) break;
     const struct exact_root found = found_root(&p);
     enum piece_verdict verdict = PIECE_OPEN;

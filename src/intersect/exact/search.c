@@ -116,7 +116,7 @@ static bool beyond(const struct judge *j, const struct waiting *it)
 /* If the box is small, and a multiple of 2^-SIMPLE_BITS of the patch is strictly inside it by one parameter at least, a
  * tangency may be exactly there: then parts of the patch that together hold the box, and end there. Returns how many;
  * 0 if there is no such point, -1 if there was no room. */
-enum { SIMPLE_BITS = 16, PARTS_MAX = 4 };
+enum { PARTS_MAX = 4 };
 static int divide_at_simple(struct judge *j, const struct waiting *it, const double box[2][2],
                             struct piece out[PARTS_MAX])
 {
@@ -132,8 +132,7 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
     far = real_max(far, real_max((double)(at[k] - low), (double)(high - at[k])));
   }
   if ((side[0][0] && side[0][1]) + (side[1][0] && side[1][1]) == 0) return 0;
-  if (far >= ldexp(1, -SIMPLE_BITS - 4) || far < LEAST_SIZE)
-    return 0; /* low and high are exact, but for a box's slack */
+  if (far >= ldexp(1, -SIMPLE_BITS - 4) || far < LEAST_SIZE) return 0;
   int exponent, count = 0;
   (void)frexp(far, &exponent);
   const int log2 = exponent < -BOX_BITS ? BOX_BITS : -exponent;
