@@ -91,7 +91,7 @@ static enum place_within in_patch(struct placing *p)
     if (inside <= p->root.radius) unknown |= 1u << border;
   }
   if (p->corner || (unknown && in_corner(p))) {
-    p->on |= unknown;
+    p->on |= p->piece.borders & (1u << (int)p->root.at[0] | 4u << (int)p->root.at[1]);
     return PLACE_IN;
   }
   return unknown ? PLACE_UNKNOWN : PLACE_IN;
