@@ -1,6 +1,7 @@
 /* Rays through a point of a patch that is known exactly: whatever part holds it, however small, is not said to be
- * without a root, nor is the root outside of what is left of the part, nor elsewhere along the ray. Control points are
- * whole and parameters sixteenths, so points, derivatives and rays are exact in doubles. */
+ * without a root, nor is the root outside of what is left of the part, nor elsewhere along the ray; and a part with two
+ * roots is not said to have one. Control points are whole and parameters sixteenths, so points, derivatives and rays are
+ * exact in doubles. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,12 +11,15 @@
 #include "intersect/exact/sight.h"
 #include "random.h"
 
-enum { SEED = 20261129, CASES = 4000, CUTS = 6, OF = 16, POOL = 1 << 16 };
+enum { SEED = 20261129, CASES = 10000, CUTS = 6, OF = 16, BITS = 16, POOL = 1 << 16 };
+
+enum kind { BENT, POLE, HANDLES, STRAIGHT, TANGENT, TWICE, KINDS };
 
 static const double t_of_root = 0.5;
 
 struct subject {
   double P[4][4][3], point[3], du[3], dv[3];
+  int line;            /* a border whose curve is on a line through the ray; -1 if none is known */
   int at[2], other[2]; /* u and v, times OF, and those of another root; `at` again if none is known */
   struct ray ray;
 };
@@ -51,47 +55,88 @@ static void ray_along(struct subject *s, const double direction[3])
   s->ray.t_max = INFINITY;
   for (int c = 0; c < 3; c++) {
     s->ray.direction[c] = direction[c], s->ray.origin[c] = s->point[c] - t_of_root * direction[c];
-    assert_true(s->ray.origin[c] + t_of_root * direction[c] == s->point[c]);
+    assert_true(s->ray.origin[c] + (wide)t_of_root * direction[c] == s->point[c]);
   }
+}
+
+static int beside(struct random *random, int at)
+{
+  const int to = at + (int)(random_bits(random) % 3) - 1;
+  return to < 0 ? 0 : to > OF ? OF : to;
 }
 
 /* A bent patch, sometimes with a border that is a point, or whose handles have no length, or that is straight and in one
  * plane with the ray; the ray is sometimes tangent, or goes through a second point. */
-static void make_subject(struct random *random, struct subject *s)
+static void make_subject(struct random *random, enum kind kind, struct subject *s)
 {
-  const int kind = (int)(random_bits(random) % 6), border = (int)(random_bits(random) % 4);
+  const int border = (int)(random_bits(random) % 4);
+  const double unit = ldexp(1, (int)(random_bits(random) % (BITS + 1))); /* with more bits, more is rounded */
   double direction[3];
   for (int n = 0; n < 16; n++) {
     const double base[3] = {60 * (n / 4), 60 * (n % 4), 0};
-    for (int c = 0; c < 3; c++) s->P[n / 4][n % 4][c] = base[c] + (double)(random_bits(random) % 97) - 48;
+    for (int c = 0; c < 3; c++)
+      s->P[n / 4][n % 4][c] = unit * (base[c] - 48) + (double)(random_bits(random) % (uint64_t)(97 * unit));
   }
+  s->line = kind == POLE || kind == STRAIGHT ? border : -1;
   const double *first = s->P[edge_at(border, 0) / 4][edge_at(border, 0) % 4];
   for (int k = 1; k < 4; k++) {
     double *to = s->P[edge_at(border, k) / 4][edge_at(border, k) % 4];
     const double *from = k == 1 ? first : s->P[edge_at(border, 3) / 4][edge_at(border, 3) % 4];
     for (int c = 0; c < 3; c++) {
-      if (kind == 1) to[c] = first[c];
-      if (kind == 2 && k < 3) to[c] = from[c];
-      if (kind == 3) to[c] = first[c] + k * (c == border / 2 ? 7 : 50);
+      if (kind == POLE) to[c] = first[c];
+      if (kind == HANDLES && k < 3) to[c] = from[c];
+      if (kind == STRAIGHT) to[c] = first[c] + k * unit * (c == border / 2 ? 7 : 50);
     }
   }
   for (int k = 0; k < 2; k++) s->other[k] = s->at[k] = (int)(random_bits(random) % (OF + 1));
   evaluate(s);
+  const bool near = random_bits(random) % 2;
   double second[3];
   memcpy(second, s->point, sizeof second);
-  if (kind == 5) {
-    for (int k = 0; k < 2; k++) s->at[k] = (int)(random_bits(random) % (OF + 1));
+  if (kind == TWICE) {
+    for (int k = 0; k < 2; k++) s->at[k] = near ? beside(random, s->other[k]) : (int)(random_bits(random) % (OF + 1));
     evaluate(s);
   }
   const double a = (double)(random_bits(random) % 7) - 3, b = (double)(random_bits(random) % 3) + 1;
   for (int c = 0; c < 3; c++) {
-    direction[c] = (double)(random_bits(random) % 9) - 4;
-    if (kind == 1 || kind == 3) direction[c] = first[c] - s->point[c];
-    if (kind == 4) direction[c] = a * s->du[c] + b * s->dv[c];
-    if (kind == 5) direction[c] = second[c] - s->point[c];
+    direction[c] = (double)(random_bits(random) % (uint64_t)(9 * unit)) - 4 * unit;
+    if (kind == POLE || kind == STRAIGHT) direction[c] = first[c] - s->point[c];
+    if (kind == TANGENT) direction[c] = a * s->du[c] + b * s->dv[c];
+    if (kind == TWICE) direction[c] = second[c] - s->point[c];
   }
   if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0) direction[2] = 1;
   ray_along(s, direction);
+}
+
+/* An exact piece's doubles are within their errors of its integers, and a combination of those is exact. */
+static void check_integers(struct random *random, const struct piece *piece)
+{
+  const size_t before = pool.used;
+  const int c = (int)(random_bits(random) % 16), *limbs = piece->limbs;
+  wide x[2][16];
+  int length;
+  bool known;
+  for (int k = 0; k < 2; k++) {
+    const double scale = ldexp(1, -piece->bits[k] - piece->exponent[k]);
+    for (int n = 0; n < 16; n++) {
+      x[k][n] = piece_coefficient(piece, k, n, &known);
+      const double off = fabs((double)(piece->value[k][n / 4][n % 4] - x[k][n] * scale));
+      worst_value = real_max(worst_value, off / piece->error[k]);
+    }
+  }
+  const struct weight p = {piece->net[1] + c * limbs[1], limbs[1]}, q = {piece->net[0] + c * limbs[0], limbs[0]};
+  const limb *net = piece_combine(piece, p, q, &pool, &length);
+  for (int n = 0; n < 16 && net; n++) {
+    const wide one = x[1][c] * x[0][n], two = x[0][c] * x[1][n];
+    const wide here = limbs_wide(net + n * length, length, piece->exponent[0] + piece->exponent[1], &known);
+    assert_true(wide_abs(here - (one - two)) <= 32 * WIDE_ROUNDOFF * (wide_abs(one) + wide_abs(two)));
+  }
+  for (int corner = 0; corner < 4; corner++) {
+    struct piece copy = *piece;
+    const int u = corner / 2, v = corner % 2;
+    assert_true(piece_corner_root(&copy, u, v, &pool) == (x[0][12 * u + 3 * v] == 0 && x[1][12 * u + 3 * v] == 0));
+  }
+  pool.used = before;
 }
 
 /* Its doubles are within their errors of an exact copy's, which may be scaled otherwise. */
@@ -112,25 +157,38 @@ static void check_values(const struct piece *piece, const struct piece *exact)
   }
 }
 
-static void check_piece(const struct subject *s, const struct sight *sight, struct piece *piece, const double local[2])
+static void check_piece(struct random *random, const struct subject *s, const struct sight *sight, struct piece *piece,
+                        const double local[2])
 {
   struct piece exact = *piece;
   struct piece_root root;
   double least, most, error;
   bool known;
+  for (int k = 0; k < 2; k++) {
+    assert_true(local[k] >= 0 && local[k] <= 1);
+    assert_int_equal(piece->borders >> (2 * k) & 1, piece->low[k] == 0);
+    assert_int_equal(piece->borders >> (2 * k + 1) & 1, piece->low[k] + piece->size[k] == 1);
+  }
   assert_false(piece_misses(piece));
   piece_depths(piece, &least, &most);
   assert_true(least <= t_of_root * sight->along && t_of_root * sight->along <= most);
   assert_true(piece_exact(&exact, &pool));
   assert_false(piece_misses(&exact));
   check_values(piece, &exact);
+  check_integers(random, &exact);
+  for (int corner = 0; corner < 4; corner++) {
+    const bool here = local[0] == corner / 2 && local[1] == corner % 2;
+    struct piece copy = *piece;
+    if (here) assert_true(piece_corner_root(&copy, corner / 2, corner % 2, &pool));
+  }
   const enum piece_verdict verdict = piece_root(piece, false, &pool, &root);
   assert_int_not_equal(verdict, PIECE_EMPTY);
   boxes += verdict == PIECE_OPEN && root.box[0][1] - root.box[0][0] < 0.5;
   for (int k = 0; k < 2 && verdict == PIECE_OPEN; k++)
-    assert_true(root.box[k][0] <= local[k] && local[k] <= root.box[k][1]);
+    assert_true(0 <= root.box[k][0] && root.box[k][0] <= local[k] && local[k] <= root.box[k][1] && root.box[k][1] <= 1);
   if (verdict != PIECE_ROOT) return;
   roots++;
+  assert_true(root.radius <= PIECE_MARGIN / 2);
   bool within = s->other[0] != s->at[0] || s->other[1] != s->at[1];
   for (int k = 0; k < 2; k++) {
     const double place = (double)(((wide)s->other[k] / OF - piece->low[k]) / piece->size[k]);
@@ -147,15 +205,19 @@ static void check_piece(const struct subject *s, const struct sight *sight, stru
 static bool cut_about(struct random *random, const int at[2], struct piece *piece, double local[2])
 {
   struct piece part = *piece;
+  double box[2][2];
   for (int axis = 0; axis < 2; axis++) {
-    const int log2 = 1 + (int)(random_bits(random) % 8);
-    const wide here = ((wide)at[axis] / OF - part.low[axis]) / part.size[axis];
-    const double cells = ldexp(1, log2), cell = real_min(floor((double)here * cells), cells - 1);
-    const double from = real_max(cell - (double)(random_bits(random) % 3), 0);
-    const double to = real_min(cell + 1 + (double)(random_bits(random) % 3), cells);
+    const int log2 = 1 + (int)(random_bits(random) % 20);
+    const uint64_t most = random_bits(random) % 4 == 0 ? (uint64_t)1 << (log2 < 15 ? log2 : 15) : 3;
+    const double cells = ldexp(1, log2), cell = real_min(floor(local[axis] * cells), cells - 1);
+    const double from = real_max(cell - (double)(random_bits(random) % most), 0);
+    const double to = real_min(cell + 1 + (double)(random_bits(random) % most), cells);
+    if (piece->size[axis] < 0x1p30 * WIDE_ROUNDOFF) return false;
+    for (int end = 0; end < 2; end++) box[axis][end] = local[axis] + (end ? 1 : -1) * ldexp(random_unit(random), -log2);
     if (random_bits(random) % 4 == 0) continue;
     if (!piece_part(&part, axis, (limb)from, (limb)to, log2, &pool, &part)) return false;
   }
+  if (random_bits(random) % 2 && !piece_box(piece, box, &pool, &part)) return false;
   *piece = part;
   for (int k = 0; k < 2; k++) local[k] = (double)(((wide)at[k] / OF - part.low[k]) / part.size[k]);
   return true;
@@ -181,15 +243,17 @@ TEST(a_root_is_in_every_piece_that_holds_it)
   for (int n = 0; n < CASES; n++) {
     struct subject s;
     struct sight sight;
-    make_subject(&random, &s);
+    make_subject(&random, (enum kind)(n % KINDS), &s);
     pool = (struct pool){room, POOL, 0, 1 << 20};
     assert_true(sight_make(s.P, &s.ray, &pool, &sight));
-    bool on = sight.dependent;
+    bool on = sight.dependent, line = on || s.line < 0;
     for (int k = 0; k < 4; k++) {
       const int border = k < sight.borders ? sight.border[k] : -1;
+      line |= border == s.line || (sight.met >> k & 1 && k == s.line);
       on |= border >= 0 && s.at[border / 2] == (border & 1 ? OF : 0);
       on |= (sight.met >> k & 1) && s.at[k / 2] == (k & 1 ? OF : 0);
     }
+    assert_true(line);
     exchanged += !on && (sight.borders > 0 || sight.met);
     const size_t before = pool.used;
     for (int off = 0; off < (on ? 1 : 2); off++) {
@@ -197,7 +261,7 @@ TEST(a_root_is_in_every_piece_that_holds_it)
       double local[2] = {(double)s.at[0] / OF, (double)s.at[1] / OF};
       check_beside(&piece, s.at);
       for (int k = 0; k < CUTS; k++) {
-        check_piece(&s, &sight, &piece, local);
+        check_piece(&random, &s, &sight, &piece, local);
         if (!cut_about(&random, s.at, &piece, local)) break;
       }
       pool.used = before;
@@ -209,4 +273,57 @@ TEST(a_root_is_in_every_piece_that_holds_it)
   assert_true(worst_value <= 1 && worst_depth <= 1 && worst_root <= 1);
   assert_true(roots > CASES && exchanged > CASES / 8);
   assert_true(boxes > 2 * CASES && empties > CASES); /* pieces next to tangencies are cut, those beside roots dropped */
+}
+
+TEST(a_piece_with_two_roots_is_not_said_to_have_one)
+{
+  struct random random = {SEED + 1};
+  limb *room = malloc(POOL * sizeof *room);
+  assert_non_null(room);
+  for (int n = 0; n < CASES; n++) {
+    struct subject s;
+    struct sight sight;
+    struct piece half, part;
+    struct piece_root root;
+    make_subject(&random, TWICE, &s);
+    if (s.at[0] == s.other[0] && s.at[1] == s.other[1]) continue;
+    pool = (struct pool){room, POOL, 0, 1 << 20};
+    assert_true(sight_make(s.P, &s.ray, &pool, &sight));
+    half = sight.plane;
+    for (int axis = 0; axis < 2; axis++) {
+      const int low = s.at[axis] < s.other[axis] ? s.at[axis] : s.other[axis], high = s.at[axis] + s.other[axis] - low;
+      const limb wider = random_bits(&random) % OF + (low == high), cells = OF * OF;
+      const limb from = (limb)low * OF < wider ? 0 : (limb)low * OF - wider, to = (limb)high * OF + wider;
+      assert_true(piece_part(&half, axis, from, to < cells ? to : cells, 8, &pool, &part));
+      half = part;
+    }
+    assert_int_equal(piece_root(&part, false, &pool, &root), PIECE_OPEN);
+  }
+  free(room);
+}
+
+TEST(doubles_of_a_net_keep_its_signs)
+{
+  struct random random = {SEED + 2};
+  for (int n = 0; n < CASES; n++) {
+    enum { LIMBS = 3 };
+    const int limbs = 1 + (int)(random_bits(&random) % LIMBS), shift = (int)(random_bits(&random) % LIMB_BITS);
+    limb net[16 * LIMBS];
+    double out[4][4];
+    bool zero = true, known;
+    for (int c = 0; c < 16; c++) {
+      const limb x = (limb)((int64_t)random_bits(&random) >> shift);
+      limbs_copy(net + c * limbs, limbs, &x, 1);
+      zero = zero && x == 0;
+      if (limbs > 1 && random_bits(&random) % 2) net[c * limbs] = 0, net[c * limbs + 1] = x;
+      if (limbs > 2) net[c * limbs + 2] = limbs_fill(&x, 1);
+    }
+    const int bits = net_round(net, limbs, out);
+    assert_true(zero == (bits == 0));
+    for (int c = 0; c < 16; c++) {
+      const wide x = limbs_wide(net + c * limbs, limbs, -bits, &known);
+      assert_true(fabs((double)(out[c / 4][c % 4] - x)) <= PIECE_ERROR);
+      assert_true((x < 0) == (out[c / 4][c % 4] < 0) && (x > 0 || out[c / 4][c % 4] <= 0));
+    }
+  }
 }
