@@ -50,6 +50,8 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     entered[STAGE_BILINEAR] += lanes_count(open);
     open = stage_bilinear(p, it, open);
     if (!lanes_any(open)) return;
+    if (patch->method->polish) open &= ~stage_leaves(p, it, open);
+    if (!lanes_any(open)) return;
   }
   packet_charge(p, open & COST_PLANES);
   entered[STAGE_PLANES] += lanes_count(open);

@@ -87,6 +87,9 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
  * on the leaf. A lane stays open if the ray is so slanted that the root is not proven to be the only one. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
+/* newton.c: returns the lanes of `open` whose ray starts beyond the first root and does not come back to the leaf. */
+lane_mask stage_leaves(const struct packet *p, const struct candidate *it, lane_mask open);
+
 /* cover.c: closes lanes where pieces that cover the leaf show that it has no root, by the default method also none
  * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces
  * with both. */

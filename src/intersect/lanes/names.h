@@ -19,6 +19,7 @@
 #define offer_unproven KERNEL(offer_unproven)
 #define stage_slab KERNEL(stage_slab)
 #define stage_bilinear KERNEL(stage_bilinear)
+#define stage_leaves KERNEL(stage_leaves)
 #define stage_cover KERNEL(stage_cover)
 #define stage_resultant KERNEL(stage_resultant)
 #define stage_all_roots KERNEL(stage_all_roots)

@@ -277,3 +277,59 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask activ
   offer_root(p, it, root, (p->any ? root->at.exists : root->at.alone) & inside(&root->at));
   return active & ~root->at.alone & p->live;
 }
+
+/* ---- rays that leave ---- */
+
+/* Let f be the height over a plane through a point z of the leaf, next to the first root, on the side to which the ray
+ * leaves: the product of a point's way from z with the computed normal n at z. If the Hessian of f is negative definite
+ * all over the leaf, which is convex, f is no more there than its slope at z, which is 0 but for rounding. The ray is
+ * higher where it starts: at the same x_k as z it misses z by the planes' values there. The elements of the Hessian
+ * lie within 6, 9 and 6 times the second differences of coefficients. */
+lane_mask stage_leaves(const struct packet *p, const struct candidate *it, lane_mask open)
+{
+  const struct leaf *leaf = it->leaf;
+  const struct newton_root *r = &it->first.at;
+  const struct line *line = it->line;
+  const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  lanes from, to, off, n[3], f[16];
+  ray_ends(p, it, p->t_max, &from, &to, &off);
+  const lane_mask up = p->direction[k] > 0;
+  const lanes start = lanes_select(up, from, to);
+  open &= r->exists & (((start - it->first.w > 0) ^ up) == 0) & (lanes_abs(r->u - 0.5) <= 0.5) &
+          (lanes_abs(r->v - 0.5) <= 0.5);
+  if (!lanes_any(open)) return open;
+  struct coordinate x[3];
+  surface_at(&leaf->parts, r->u - 0.5, r->v - 0.5, few_lanes(open), x);
+  const struct plane a = plane_at(line, 0, &x[i], &x[k]), b = plane_at(line, 1, &x[j], &x[k]);
+  for (int c = 0; c < 3; c++) {
+    const struct coordinate *y = &x[(c + 1) % 3], *z = &x[(c + 2) % 3];
+    n[c] = y->ds * z->dt - z->ds * y->dt;
+  }
+  const lanes rise = n[i] * line->slope[0] + (n[j] * line->slope[1] + n[k]);
+  const lanes size = lanes_abs(n[0]) + (lanes_abs(n[1]) + lanes_abs(n[2]));
+  const lanes ahead = start - (x[k].hi + x[k].lo);
+  const lanes way = lanes_select(up, ahead, -ahead) - (off + leaf->parts.error + 4 * UNIT_ROUNDOFF);
+  /* derivatives, which are off by 16 times the error of a value besides, and their product */
+  const double rounded = UNIT_ROUNDOFF * (leaf->first[0] + leaf->first[1]);
+  const lanes slope = size * (2 * DERIVATIVE_ROUNDINGS * rounded + 32 * leaf->parts.error) +
+                      16 * rounded * leaf->first[0] * leaf->first[1];
+  const lanes missed = lanes_abs(n[i] * a.value) + lanes_abs(n[j] * b.value) + size * (line->error + leaf->parts.error);
+  open &= (way > 0) &
+          (way * (lanes_abs(rise) - 16 * UNIT_ROUNDOFF * size) > (1 + 8 * UNIT_ROUNDOFF) * (slope + missed));
+  if (!lanes_any(open)) return open;
+  const lane_mask below = (rise > 0) ^ up; /* the normal points to the other side */
+  for (int c = 0; c < 3; c++) n[c] = lanes_select(below, -n[c], n[c]);
+  for (int m = 0; m < 16; m++) f[m] = n[0] * leaf->x[0][m] + (n[1] * leaf->x[1][m] + n[2] * leaf->x[2][m]);
+  lanes uu = lanes_all(-INFINITY), vv = uu, uv = lanes_all(0);
+  for (int m = 0; m < 8; m++) {
+    const lanes *g = &f[m], *h = &f[4 * (m / 2) + m % 2];
+    uu = lanes_max((g[8] - g[4]) - (g[4] - g[0]), uu), vv = lanes_max((h[2] - h[1]) - (h[1] - h[0]), vv);
+  }
+  for (int m = 0; m < 9; m++) {
+    const lanes *g = &f[4 * (m / 3) + m % 3];
+    uv = lanes_max(lanes_abs((g[5] - g[4]) - (g[1] - g[0])), uv);
+  }
+  const lanes error = size * (4 * line->error + 16 * UNIT_ROUNDOFF); /* of a second difference */
+  uu += error, vv += error, uv += error;
+  return open & (uu < 0) & (vv < 0) & (36 * (uu * vv) > 82 * (uv * uv));
+}
