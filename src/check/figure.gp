@@ -28,7 +28,7 @@ set format x '10^{%T}'
 set format y '%g'
 set xtics auto
 set offsets 0, 0, graph 0.4, 0
-set xlabel 'relative; pscn has none to speak of'
+set xlabel 'relative; too small to show for pscn'
 set yrange [0:*]
 set key top right
 plot $rows using 6:7 with lines lw 1.5 lc rgb '#0891b2' title 'POV-Ray, u\_steps', \

@@ -26,7 +26,7 @@ static bool is_scene(const char *name)
   return strpbrk(name, "./") != NULL || strcmp(name, "-") == 0 || access(name, F_OK) == 0;
 }
 
-/* "pscn -o picture.png scene.pscn" as well, and "pscn +W320 +Iscene.pov" to be told better, but not "pscn -q dump
+/* "pscn -o picture.png scene.pscn" as well, and "pscn +W320 +Iscene.pov" for a better message, but not "pscn -q dump
  * scene.pscn". */
 static bool is_rendering(int argc, char **argv)
 {
