@@ -302,6 +302,74 @@ TEST(a_piece_with_two_roots_is_not_said_to_have_one)
   free(room);
 }
 
+/* Adds `by` times (x + y u + z v)^power, in Bernstein form. */
+static void add_power(double x, double y, double z, int power, double by, double net[16])
+{
+  static const double choose[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
+  for (int i = 0; i <= power; i++) {
+    for (int j = 0; j <= power - i; j++) {
+      const int k = power - i - j;
+      const double term = by * choose[power][i] * choose[power - i][j] * pow(y, i) * pow(z, j) * pow(x, k);
+      for (int n = 0; n < 16; n++) net[n] += term * choose[n / 4][i] / choose[3][i] * choose[n % 4][j] / choose[3][j];
+    }
+  }
+}
+
+/* (u,v) - p + w (g(s(p)) - g(s(u,v))), with s linear and w = (q - p) / (g(s(q)) - g(s(p))), is zero at p and q. With
+ * g = g' = 0 in the middle its Jacobian is the identity there, and singular near p and q if they are near to each other:
+ * it turns no more than that takes. Returns whether both are within the margin. */
+static bool make_turning(struct random *random, double net[2][16])
+{
+  const double angle = (double)(random_bits(random) % 24) * acos(-1) / 12, e[2] = {cos(angle), sin(angle)};
+  const double square = (double)(random_bits(random) % 2) * random_unit(random), cube = 1 - 2 * random_unit(random);
+  const double length = (random_bits(random) % 4 ? 0.2 : 2) * random_unit(random), start = -(e[0] + e[1]) / 2;
+  double at[2][2], g[2];
+  bool inside = true;
+  for (int k = 0; k < 2; k++) {
+    const double from[4] = {-PIECE_MARGIN, 1 + PIECE_MARGIN - length, random_unit(random), 3 * random_unit(random) - 1};
+    const int which = (int)(random_bits(random) % 4);
+    for (int m = 0; m < 2; m++) {
+      at[m][k] = from[which] + length * random_unit(random);
+      inside = inside && at[m][k] > -PIECE_MARGIN && at[m][k] < 1 + PIECE_MARGIN;
+    }
+  }
+  for (int m = 0; m < 2; m++) {
+    const double s = start + e[0] * at[m][0] + e[1] * at[m][1];
+    g[m] = (square + cube * s) * s * s;
+  }
+  for (int k = 0; k < 2; k++) {
+    const double w = g[0] == g[1] ? 0 : (at[1][k] - at[0][k]) / (g[1] - g[0]);
+    memset(net[k], 0, sizeof net[k]);
+    add_power(w * g[0] - at[0][k], k == 0, k == 1, 1, 1, net[k]);
+    add_power(start, e[0], e[1], 2, -w * square, net[k]), add_power(start, e[0], e[1], 3, -w * cube, net[k]);
+  }
+  return inside && g[0] != g[1];
+}
+
+TEST(one_root_is_proven_only_where_there_cannot_be_two)
+{
+  struct random random = {SEED + 3};
+  limb room[NETS * 16];
+  int single = 0;
+  for (int n = 0; n < 16 * CASES; n++) {
+    struct piece piece = {.length = {1, 1}, .size = {1, 1}, .borders = 15};
+    struct piece_root root;
+    double net[2][16];
+    const bool inside = make_turning(&random, net);
+    pool = (struct pool){room, sizeof room / sizeof *room, 0, 1 << 20};
+    for (int k = 0; k < NETS; k++) {
+      piece.net[k] = pool_net(&pool, 1), piece.limbs[k] = 1;
+      for (int c = 0; c < 16; c++)
+        piece.net[k][c] = k < 2 ? (limb)(int64_t)ldexp(real_clamp(net[k][c], -0x1p20, 0x1p20), 40) : 0;
+    }
+    piece_measure(&piece);
+    const bool one = piece_root(&piece, false, &pool, &root) == PIECE_ROOT;
+    assert_false(one && inside);
+    single += one;
+  }
+  assert_true(single > 0);
+}
+
 TEST(doubles_of_a_net_keep_its_signs)
 {
   struct random random = {SEED + 2};
