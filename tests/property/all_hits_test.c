@@ -6,6 +6,7 @@
 
 #include "cmocka_test.h"
 #include "method_of.h"
+#include "net_order.h"
 #include "property/world.h"
 
 enum { SEED = 20240514, SCENES = 3, MOST_HITS = 200 };
@@ -305,6 +306,82 @@ static struct hit_list list_of(struct world *world, const struct ray *ray)
   struct hit_list list;
   assert_int_equal(tracer_all(world->tracer, 1, ray, &list), STATUS_OK);
   return list;
+}
+
+/* Two patches with one border, whichever of theirs and in whatever sense, and a ray along z through a point of it: it
+ * crosses the surface there, once, if they lie on either side of the border as it sees them. Otherwise it touches it,
+ * which is not certain. */
+TEST(test_two_sides)
+{
+  enum { ORDERS = 8, PAIRS = 4 };
+  static const double weight[2][4] = {{27, 27, 9, 1}, {1, 3, 3, 1}}, slope[2][4] = {{-9, 3, 5, 1}, {-1, -1, 1, 1}};
+  struct random random = {SEED + 9};
+  int crossing = 0, certain = 0;
+  for (int n = 0; n < ORDERS * ORDERS * PAIRS; n++) {
+    double curve[4][3], inward[2][3], at[3] = {0}, along[2] = {0}, side[2];
+    const int half = n % 2;
+    world_net net, nets[2];
+    for (int c = 0; c < 3; c++) {
+      for (int k = 0; k < 4; k++) {
+        curve[k][c] = (double)(random_bits(&random) % 17) - 8;
+        at[c] += curve[k][c] * weight[half][k] / (half ? 8 : 64);
+        if (c < 2) along[c] += curve[k][c] * slope[half][k];
+      }
+    }
+    for (int p = 0; p < 2; p++) {
+      for (int c = 0; c < 3; c++) inward[p][c] = (double)(random_bits(&random) % 17) - 8;
+      side[p] = along[0] * inward[p][1] - along[1] * inward[p][0];
+      for (int k = 0; k < 16; k++)
+        for (int c = 0; c < 3; c++) net[k / 4][k % 4][c] = curve[k % 4][c] + (k / 4) * inward[p][c];
+      in_order(net, n / PAIRS / (p ? ORDERS : 1) % ORDERS, nets[p]);
+    }
+    if (side[0] == 0 || side[1] == 0) continue;
+    struct world world;
+    world_open(&world, nets, 2, NULL);
+    const struct ray ray = {{at[0], at[1], 64}, {0, 0, -1}, 0, INFINITY};
+    const struct hit_list list = list_of(&world, &ray);
+    const bool crosses = (side[0] > 0) != (side[1] > 0);
+    int here = 0;
+    for (size_t k = 0; k < list.count; k++) {
+      if (list.hits[k].t != 64 - at[2]) continue;
+      here++;
+      if (!crosses) assert_int_equal(list.hits[k].certainty, CERTAINTY_GRAZING);
+    }
+    if (list.certainty == CERTAINTY_CERTAIN) assert_true(crosses && here == 1);
+    crossing += crosses, certain += list.certainty == CERTAINTY_CERTAIN;
+    world_close(&world);
+  }
+  assert_true(crossing > ORDERS * ORDERS * PAIRS / 4 && 10 * certain > 9 * crossing);
+}
+
+/* A bent patch whose border is in a plane along the ray, which passes beside the plane, however near: it meets the patch
+ * once on the one side and not at all on the other. */
+TEST(test_beside_a_border)
+{
+  enum { PATCHES = 32, RAYS = 90 };
+  struct random random = {SEED + 10};
+  for (int p = 0; p < PATCHES; p++) {
+    world_net net, nets[1];
+    struct world world;
+    for (int n = 0; n < 16; n++) {
+      const int base[3] = {8 * (n / 4), 8 * (n % 4) - 12, 0};
+      for (int c = 0; c < 3; c++) net[n / 4][n % 4][c] = base[c] + (double)(random_bits(&random) % 5) - 2;
+      if (n < 4) net[0][n][0] = 0;
+    }
+    in_order(net, p % 8, nets[0]);
+    world_open(&world, nets, 1, NULL);
+    for (int n = 0; n < 2 * RAYS; n++) {
+      const double y = random_between(&random, -8, 8), x = ldexp(n % 2 ? 1 : -1, -n / 2);
+      const struct ray ray = {{x, y, 64}, {0, 0, -1}, 0, INFINITY};
+      const struct hit nearest = world_closest(&world, &ray);
+      const struct hit_list list = list_of(&world, &ray);
+      assert_int_equal(nearest.certainty, CERTAINTY_CERTAIN);
+      assert_int_equal(list.certainty, CERTAINTY_CERTAIN);
+      assert_int_equal(list.count, n % 2);
+      assert_true((nearest.patch != HIT_NONE) == n % 2);
+    }
+    world_close(&world);
+  }
 }
 
 /* A contact with a surface is not certain: a bowl touched at its bottom, a sheet met along a line. Beside it the answer
