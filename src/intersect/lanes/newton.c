@@ -280,6 +280,9 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask activ
 
 /* ---- rays that leave ---- */
 
+/* A ray that starts farther from the root than this, in the patch's frame, hardly ever comes here. A choice of speed. */
+#define STARTS_NEAR 0x1p-20
+
 /* Let f be the height over a plane through a point z of the leaf, next to the first root, on the side to which the ray
  * leaves: the product of a point's way from z with the computed normal n at z. If the Hessian of f is negative definite
  * all over the leaf, which is convex, f is no more there than its slope at z, which is 0 but for rounding. The ray is
@@ -294,8 +297,8 @@ lane_mask stage_leaves(const struct packet *p, const struct candidate *it, lane_
   lanes from, to, off, n[3], f[16];
   ray_ends(p, it, p->t_max, &from, &to, &off);
   const lane_mask up = p->direction[k] > 0;
-  const lanes start = lanes_select(up, from, to);
-  open &= r->exists & (((start - it->first.w > 0) ^ up) == 0) & (lanes_abs(r->u - 0.5) <= 0.5) &
+  const lanes start = lanes_select(up, from, to), past = lanes_select(up, start - it->first.w, it->first.w - start);
+  open &= r->exists & (past > 0) & (past <= STARTS_NEAR) & (lanes_abs(r->u - 0.5) <= 0.5) &
           (lanes_abs(r->v - 0.5) <= 0.5);
   if (!lanes_any(open)) return open;
   struct coordinate x[3];
