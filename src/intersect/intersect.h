@@ -9,8 +9,8 @@
  * exactly, lies in one, or passes so near such a place that its share of work does not suffice. A hit is then reported
  * if one cannot be excluded. A corner or a pole that the ray meets exactly is a certain hit, even where the surface is
  * open there, and so is a border in one plane with the ray, or where u and v are multiples of 2^-16; at other places
- * exactly on a border, or within some 2^-160 of the patch from there, the ray is grazing. At an open border a list of all hits is grazing in any case, because it
- * does not follow on which side of the surface the ray is.
+ * exactly on a border, or within some 2^-160 of the patch from there, the ray is grazing. At an open border a list of
+ * all hits is grazing in any case, because it does not follow on which side of the surface the ray is.
  *
  * The answer to a ray does not depend on the other rays of its packet, with these exceptions: its last places, if
  * another hit is so near that double precision does not show which comes first; its last places and its certainty, if

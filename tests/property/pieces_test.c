@@ -8,7 +8,7 @@
 #include "base/real.h"
 #include "cmocka_test.h"
 #include "geometry/edges.h"
-#include "intersect/exact/sight.h"
+#include "intersect/exact/judge.h"
 #include "random.h"
 
 enum { SEED = 20261129, CASES = 10000, CUTS = 6, OF = 16, BITS = 16, POOL = 1 << 16 };

@@ -14,7 +14,7 @@
  * A ray meets a patch in its borders and corners, too. All decisions are exact, except that two roots that near to each
  * other are one, or are met at one t. What is not decided is `grazing`: what is open when the work is used up; and a
  * root exactly on a border, or within some 2^-160 of the patch from it, unless u and v are multiples of 2^-16 or the ray
- * lies in one plane with the border (sight.h).
+ * lies in one plane with the border (judge.h).
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H

@@ -32,7 +32,7 @@ static inline bool limbs_zero(const limb *a, int n)
   return any == 0;
 }
 
-/* The least number of bits b with |a| <= 2^b. */
+/* The least number of bits b with -2^b <= a < 2^b. */
 static inline int limbs_bits(const limb *a, int n)
 {
   const limb fill = limbs_fill(a, n);
@@ -99,10 +99,9 @@ static inline void limbs_product(limb *restrict out, int n, const limb *a, int n
   }
 }
 
-/* The largest integer no more than a / 2^shift, which has less than 64 bits; or the same of a 2^-shift, exactly. */
+/* The largest integer no more than a / 2^shift, modulo 2^64. */
 static inline int64_t limbs_window(const limb *a, int n, int shift)
 {
-  if (shift < 0) return (int64_t)(a[0] << -shift);
   const int whole = shift / LIMB_BITS, part = shift % LIMB_BITS;
   const limb low = limbs_at(a, n, whole), high = limbs_at(a, n, whole + 1);
   return (int64_t)(part ? low >> part | high << (LIMB_BITS - part) : low);

@@ -66,7 +66,9 @@ void piece_measure(struct piece *piece)
   piece->bits[NET_W] = net_bits(piece->net[NET_W], piece->limbs[NET_W]);
   const int limbs = limbs_for(piece->bits[NET_W] + 2);
   piece_depth_changes(piece, limbs, change);
-  piece->scale = net_round(change, limbs, piece->value[NET_W]) + piece->exponent[NET_W];
+  const int bits = net_round(change, limbs, piece->value[NET_W]);
+  piece->scale = bits + piece->exponent[NET_W];
+  if (bits == 0) piece->error[NET_W] = 0;
   piece->start = (double)piece_coefficient(piece, NET_W, 0, &exact);
 }
 
@@ -216,7 +218,7 @@ bool piece_part(struct piece *piece, int axis, limb from, limb to, int log2, str
   if (ends[1] < 1) out->borders &= ~(1u << (2 * axis + 1));
   for (int k = 0; k < NETS; k++) {
     cut(piece->value[k], axis, ends, out->value[k]);
-    out->error[k] += 8 * UNIT_ROUNDOFF;
+    if (out->error[k] > 0) out->error[k] += 8 * UNIT_ROUNDOFF; /* or all are equal */
     const int exponent = normalise(out->value[k], &out->error[k]);
     if (k == NET_W) out->scale += exponent;
   }
@@ -300,8 +302,7 @@ void piece_depths(const struct piece *piece, double *least, double *most)
   double low = INFINITY, high = -INFINITY;
   for (int c = 0; c < 16; c++)
     low = real_min(low, piece->value[NET_W][c / 4][c % 4]), high = real_max(high, piece->value[NET_W][c / 4][c % 4]);
-  const double off = high > low ? piece->error[NET_W] : 0;
-  low = ldexp(low - off, piece->scale), high = ldexp(high + off, piece->scale);
+  low = ldexp(low - piece->error[NET_W], piece->scale), high = ldexp(high + piece->error[NET_W], piece->scale);
   /* the start, the sum, and the differences above */
   const double slack = 4 * UNIT_ROUNDOFF * (fabs(piece->start) + real_max(-low, high));
   *least = piece->start + low - slack, *most = piece->start + high + slack;

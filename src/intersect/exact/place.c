@@ -2,7 +2,7 @@
  *
  * A root is zoomed in on until it is sharp, and it is known on which side of a border, and of the ray's start and end, it
  * lies. Whether it lies exactly on one of them is decided by equality: at some multiples of 2^-16 both polynomials are
- * zero; on some borders one is zero all along (sight.h); t of a flat patch is the same all over it.
+ * zero; on some borders one is zero all along (judge.h); t of a flat patch is the same all over it.
  */
 #include "intersect/exact/judge.h"
 
@@ -49,13 +49,6 @@ struct placing {
   struct depth depth;
 };
 
-/* Sets the depth of a root in a corner of the piece, which is exact. */
-static void set_corner_depth(struct placing *p)
-{
-  const int c = 12 * (int)p->root.at[0] + 3 * (int)p->root.at[1];
-  p->depth.w = piece_coefficient(&p->piece, NET_W, c, &p->depth.exact), p->depth.error = 0;
-}
-
 /* Whether both polynomials are 0 at the multiples of 2^-SIMPLE_BITS of the patch that are nearest to the root, and it may
  * be there: then it is in a corner of a piece that ends there, which is now the root's. */
 static bool in_corner(struct placing *p)
@@ -74,7 +67,7 @@ static bool in_corner(struct placing *p)
   }
   if (!piece_corner_root(&part[2], end[0], end[1], pool)) return false;
   p->piece = part[2], p->root.at[0] = end[0], p->root.at[1] = end[1], p->root.radius = 0, p->corner = true;
-  set_corner_depth(p);
+  p->depth.w = piece_coefficient(&p->piece, NET_W, 12 * end[0] + 3 * end[1], &p->depth.exact), p->depth.error = 0;
   return true;
 }
 
@@ -97,9 +90,9 @@ static enum place_within in_patch(struct placing *p)
   return unknown ? PLACE_UNKNOWN : PLACE_IN;
 }
 
-/* Relative to the largest coefficients of a and b: what rounds in a product of their derivatives, each a sum of 24 terms
- * of 6 times a coefficient, with some 8 roundings each; and the second derivatives, at most 36, times that of u and v. */
-#define JACOBIAN_ERROR ((double)(2 * 36 * (24 + 8 + 12) * WIDE_ROUNDOFF))
+/* Relative to the largest coefficients of a and b. A derivative is at most 6 times that, and a sum of 24 products with some
+ * 8 roundings in each; second derivatives are at most 36, so within these radii the Jacobian changes by 720 times them. */
+#define JACOBIAN_ERROR(radii) ((double)(4 * 36 * (24 + 8) * WIDE_ROUNDOFF) + 720 * (radii))
 
 /* The sign of the Jacobian of (a,b) by (u,v) at the root; 0 if it may vanish. */
 static int jacobian_sign(const struct placing *p, const struct exact_root *root)
@@ -118,7 +111,7 @@ static int jacobian_sign(const struct placing *p, const struct exact_root *root)
         du[k] += eu[n] * wv[m] * (x[n + 1][m] - x[n][m]), dv[k] += wu[m] * ev[n] * (x[m][n + 1] - x[m][n]);
   }
   const wide jacobian = du[0] * dv[1] - dv[0] * du[1];
-  if (wide_abs(jacobian) <= JACOBIAN_ERROR * most[0] * most[1]) return 0;
+  if (wide_abs(jacobian) <= JACOBIAN_ERROR(root->radius_u + root->radius_v) * most[0] * most[1]) return 0;
   return jacobian > 0 ? 1 : -1;
 }
 
@@ -169,7 +162,8 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
       judge_undecided(j, it->near);
       break;
     }
-    if (p.corner) set_corner_depth(&p);
+    if (p.corner)
+      p.depth.w = piece_coefficient(&p.piece, NET_W, 12 * (int)root->at[0] + 3 * (int)root->at[1], &p.depth.exact);
     else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
     const enum place_within inside = in_patch(&p);
     enum place_within within = inside == PLACE_OUT ? PLACE_OUT : place_in_range(j, &p.depth);

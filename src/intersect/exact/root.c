@@ -40,8 +40,8 @@ static void slopes_exact(const struct piece *piece, int k, struct slopes *out)
   }
 }
 
-/* A row of the adjugate Jacobian times (a,b): its net, how far its coefficients may be off, and the sign of the common
- * factor by which it differs from the row in `value`. */
+/* A row of the adjugate Jacobian times (a,b), but for a common factor: its net, and how far its coefficients may be
+ * off. */
 struct row {
   double net[4][4], error;
 };
@@ -67,6 +67,8 @@ static bool combine_exactly(const struct piece *piece, struct slopes *slopes, in
 {
   const size_t before = pool->used;
   int limbs;
+  if (limbs_for((piece->bits[0] > piece->bits[1] ? piece->bits[0] : piece->bits[1]) + 6) > PIECE_LIMBS_MAX)
+    return false;
   for (int k = 0; k < 2; k++) slopes_exact(piece, k, slopes);
   const struct weight p = {slopes->exact[1][1 - d], slopes->limbs[1]}, q = {slopes->exact[0][1 - d], slopes->limbs[0]};
   const limb *net = piece_combine(piece, p, q, pool, &limbs);

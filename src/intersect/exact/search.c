@@ -29,13 +29,16 @@ static void set_reach(const struct judge *j, struct waiting *it)
 
 /* ---- corners ---- */
 
-/* Whether a combination of the net's polynomials keeps its sign on the piece but for that corner, where it is 0. */
-static bool zero_only(double net[4][4], int u, int v)
+/* Whether a combination of the polynomials keeps its sign on the piece but for that corner, where it is 0. */
+static bool zero_only(const limb *net, int limbs, int u, int v)
 {
-  const double sign = net[3 - u][3 - v] < 0 ? -1 : 1;
-  for (int c = 0; c < 16; c++)
-    if (sign * net[c / 4][c % 4] < 0) return false;
-  return net[3 - u][v] != 0 && net[u][3 - v] != 0 && net[3 - u][3 - v] != 0;
+  bool positive = false, negative = false;
+  for (int c = 0; c < 16; c++) {
+    const limb *x = net + c * limbs;
+    negative |= limbs_fill(x, limbs) != 0, positive |= limbs_fill(x, limbs) == 0 && !limbs_zero(x, limbs);
+    if ((c == 4 * (3 - u) + v || c == 4 * u + 3 - v || c == 4 * (3 - u) + 3 - v) && limbs_zero(x, limbs)) return false;
+  }
+  return !(positive && negative);
 }
 
 /* Whether a root in the corner (u,v), each 0 or 3, is the only one of the piece, though the Jacobian may vanish there:
@@ -44,16 +47,14 @@ static bool zero_only(double net[4][4], int u, int v)
 static bool corner_alone(struct judge *j, const struct piece *piece, int u, int v)
 {
   const int *limbs = piece->limbs, beside[2] = {4 * u + (v ? 2 : 1), 4 * (u ? 2 : 1) + v};
-  double net[4][4];
   for (int k = 0; k < 2; k++) {
     const struct weight p = {piece->net[1] + beside[k] * limbs[1], limbs[1]};
     const struct weight q = {piece->net[0] + beside[k] * limbs[0], limbs[0]};
     const size_t before = j->pool.used;
     int length;
-    const limb *combined = piece_combine(piece, p, q, &j->pool, &length);
-    if (combined) (void)net_round(combined, length, net);
+    const limb *net = piece_combine(piece, p, q, &j->pool, &length);
     j->pool.used = before;
-    if (combined && zero_only(net, u, v)) return true;
+    if (net && zero_only(net, length, u, v)) return true;
   }
   return false;
 }
@@ -191,17 +192,21 @@ static void report_met(struct judge *j, int border)
   const bool is_pole = edge_is_point(j->asked->model->scene->patches[j->patch].P, border);
   struct depth depth = {.error = 0};
   wide t[4];
-  double near = INFINITY, at[2];
+  double near = INFINITY, far = -INFINITY, at[2];
   for (int n = 3; n >= 0; n--) {
     depth.w = piece_coefficient(&j->sight.plane, NET_W, edge_at(border, n), &depth.exact);
-    t[n] = depth.w / j->sight.along, near = real_min(near, (double)t[n]);
+    t[n] = depth.w / j->sight.along;
+    const double here = (double)t[n], off = 4 * UNIT_ROUNDOFF * fabs(here);
+    near = real_min(near, here - off), far = real_max(far, here + off);
   }
   const int end = t[3] < t[0]; /* of a line, that which the ray meets first */
   edge_place(border, is_pole ? 0.5 : end, at);
   struct exact_root pole = {.patch = j->patch, .borders = 1u << border, .u = at[0], .v = at[1]};
   pole.t = t[0], pole.t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t[0]));
-  if (!is_pole) judge_maybe(j, at[0], at[1], (double)t[3 * end], 4 * UNIT_ROUNDOFF * fabs((double)t[3 * end]), near);
-  else if (place_in_range(j, &depth) == PLACE_IN) judge_root(j, &pole);
+  if (is_pole && place_in_range(j, &depth) == PLACE_IN) judge_root(j, &pole);
+  if (is_pole) return;
+  judge_maybe(j, at[0], at[1], (double)t[3 * end], 4 * UNIT_ROUNDOFF * fabs((double)t[3 * end]), near);
+  if (near <= j->asked->ray->t_min) judge_left(j, near, far); /* it may go on where the ray begins */
 }
 
 /* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */

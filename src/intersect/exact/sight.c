@@ -1,5 +1,5 @@
-/* A patch as a ray sees it. See sight.h. */
-#include "intersect/exact/sight.h"
+/* A patch as a ray sees it. See judge.h. */
+#include "intersect/exact/judge.h"
 
 #include "base/real.h"
 #include "geometry/edges.h"

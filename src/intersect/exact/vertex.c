@@ -124,6 +124,9 @@ static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
   if (!border_direction(plane, w->in, w->end, &in) || !border_direction(plane, w->out, out_end(w), &out)) return false;
   double turn = angle(in, out);
   if (fabs(turn) > HALF_TURN) { /* a smooth corner: by way of the control point between the two */
+    int straight = 0;           /* if just one border is, that point does not tell on which side the patch is */
+    for (int n = 0; n < j->sight.borders; n++) straight += j->sight.border[n] == w->in || j->sight.border[n] == w->out;
+    if (j->sight.met || (j->sight.borders > 0 && straight < 2)) return false;
     const int at = edge_at(w->in, w->end ? 3 : 0);
     const int inner = at + edge_inward(w->in) + edge_inward(w->out);
     if (!direction_at(plane, inner, &between)) return false;

@@ -287,7 +287,8 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask activ
  * leaves: the product of a point's way from z with the computed normal n at z. If the Hessian of f is negative definite
  * all over the leaf, which is convex, f is no more there than its slope at z, which is 0 but for rounding. The ray is
  * higher where it starts: at the same x_k as z it misses z by the planes' values there. The elements of the Hessian
- * lie within 6, 9 and 6 times the second differences of coefficients. */
+ * lie within 6, 9 and 6 times the second differences of coefficients. In a copy this is so of the object's leaf, and
+ * line->error has room for both the copy and the ray. */
 lane_mask stage_leaves(const struct packet *p, const struct candidate *it, lane_mask open)
 {
   const struct leaf *leaf = it->leaf;
