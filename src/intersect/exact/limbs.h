@@ -107,7 +107,7 @@ static inline int64_t limbs_window(const limb *a, int n, int shift)
   return (int64_t)(part ? low >> part | high << (LIMB_BITS - part) : low);
 }
 
-/* a 2^exponent in wide arithmetic, rounded down. *exact: nothing was rounded away. */
+/* a 2^exponent, below 2^1000, in wide arithmetic, rounded down. *exact: nothing was rounded away. */
 static inline wide limbs_wide(const limb *a, int n, int exponent, bool *exact)
 {
   const int bits = limbs_bits(a, n), shift = bits > 112 ? bits - 112 : 0;
@@ -115,8 +115,7 @@ static inline wide limbs_wide(const limb *a, int n, int exponent, bool *exact)
   const wide low = (wide)((limb)limbs_window(a, n, shift) & (((limb)1 << 56) - 1));
   *exact = shift == 0 || limbs_zero(a, n) || limbs_twos(a) >= shift;
   wide x = high * 0x1p56 + low;
-  for (exponent += shift; exponent > 1000; exponent -= 1000) x *= 0x1p1000;
-  for (; exponent < -1000; exponent += 1000) x *= 0x1p-1000;
+  for (exponent += shift; exponent < -1000; exponent += 1000) x *= 0x1p-1000;
   return x * (wide)ldexp(1, exponent);
 }
 

@@ -206,7 +206,8 @@ static void report_met(struct judge *j, int border)
   if (is_pole && place_in_range(j, &depth) == PLACE_IN) judge_root(j, &pole);
   if (is_pole) return;
   judge_maybe(j, at[0], at[1], (double)t[3 * end], 4 * UNIT_ROUNDOFF * fabs((double)t[3 * end]), near);
-  if (near <= j->asked->ray->t_min) judge_left(j, near, far); /* it may go on where the ray begins */
+  if (near <= j->asked->ray->t_min && far >= j->asked->ray->t_min)
+    judge_left(j, near, far); /* it may go on where the ray begins */
 }
 
 /* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */
