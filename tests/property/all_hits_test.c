@@ -354,6 +354,56 @@ TEST(test_two_sides)
   assert_true(crossing > ORDERS * ORDERS * PAIRS / 4 && 10 * certain > 9 * crossing);
 }
 
+/* A sheet bent into a loop, x = s^3 - s/16 and z = s^2 with s = v - 1/2, meets itself at v = 1/4 and 3/4: a ray in x = 0
+ * has both roots there at one t, that of smaller parameters first, and one at v = 1/2 behind them. */
+TEST(test_loop)
+{
+  static const double x[4] = {-9, 13, -13, 9}, z[4] = {3, -1, -1, 3};
+  struct random random = {SEED + 11};
+  for (int order = 0; order < 8; order++) {
+    world_net net, nets[1];
+    struct world world;
+    for (int n = 0; n < 16; n++)
+      net[n / 4][n % 4][0] = x[n % 4], net[n / 4][n % 4][1] = n / 4, net[n / 4][n % 4][2] = z[n % 4];
+    in_order(net, order, nets[0]);
+    world_open(&world, nets, 1, NULL);
+    for (int n = 0; n < 16; n++) {
+      const struct ray ray = {{0, random_between(&random, 0.1, 2.9), 8}, {0, 0, -1}, 0, INFINITY};
+      const struct hit nearest = world_closest(&world, &ray);
+      const struct hit_list list = list_of(&world, &ray);
+      assert_int_equal(nearest.certainty, CERTAINTY_CERTAIN);
+      assert_int_equal(list.certainty, CERTAINTY_CERTAIN);
+      assert_int_equal(list.count, 3);
+      assert_true(nearest.t == 7.25 && list.hits[0].t == 7.25 && list.hits[1].t == 7.25 && list.hits[2].t == 8);
+      const double first = order & 1 ? list.hits[0].u : list.hits[0].v,
+                   second = order & 1 ? list.hits[1].u : list.hits[1].v;
+      assert_true(first == 0.25 && second == 0.75 && (order & 1 ? nearest.u : nearest.v) == 0.25);
+    }
+    world_close(&world);
+  }
+}
+
+/* A border that is a line along the ray may be a hit where the ray meets its nearer end, whichever that is. */
+TEST(test_line_along_the_ray)
+{
+  for (int order = 0; order < 8; order++) {
+    world_net net, nets[1];
+    struct world world;
+    for (int n = 0; n < 16; n++) {
+      const double u = n / 4, v = n % 4;
+      net[n / 4][n % 4][0] = 3 * u, net[n / 4][n % 4][1] = u * (2 * v - 3), net[n / 4][n % 4][2] = u + v;
+    }
+    in_order(net, order, nets[0]);
+    world_open(&world, nets, 1, NULL);
+    const struct ray ray = {{0, 0, 8}, {0, 0, -1}, 0, INFINITY};
+    const struct hit nearest = world_closest(&world, &ray);
+    assert_int_equal(nearest.certainty, CERTAINTY_GRAZING);
+    assert_int_equal(list_of(&world, &ray).certainty, CERTAINTY_GRAZING);
+    assert_true(nearest.patch == 0 && nearest.t == 5);
+    world_close(&world);
+  }
+}
+
 /* A bent patch whose border is in a plane along the ray, which passes beside the plane, however near: it meets the patch
  * once on the one side and not at all on the other. */
 TEST(test_beside_a_border)

@@ -9,6 +9,7 @@
 #include "cmocka_test.h"
 #include "geometry/edges.h"
 #include "intersect/exact/judge.h"
+#include "property/world.h"
 #include "random.h"
 
 enum { SEED = 20261129, CASES = 10000, CUTS = 6, OF = 16, BITS = 16, POOL = 1 << 16 };
@@ -273,6 +274,31 @@ TEST(a_root_is_in_every_piece_that_holds_it)
   assert_true(worst_value <= 1 && worst_depth <= 1 && worst_root <= 1);
   assert_true(roots > CASES && exchanged > CASES / 8);
   assert_true(boxes > 2 * CASES && empties > CASES); /* pieces next to tangencies are cut, those beside roots dropped */
+}
+
+/* All of it together: neither the nearest hit nor all hits are certain and without that point. */
+TEST(a_ray_meets_what_it_goes_through)
+{
+  struct random random = {SEED + 4};
+  int certain = 0;
+  for (int n = 0; n < CASES / 5; n++) {
+    struct subject s;
+    struct world world;
+    struct hit_list list;
+    bool occluded, listed = false;
+    make_subject(&random, (enum kind)(n % KINDS), &s);
+    world_open(&world, &s.P, 1, NULL);
+    const struct hit hit = world_closest(&world, &s.ray);
+    assert_int_equal(tracer_all(world.tracer, 1, &s.ray, &list), STATUS_OK);
+    for (size_t k = 0; k < list.count; k++) listed = listed || fabs(list.hits[k].t - t_of_root) < 0x1p-50;
+    if (hit.certainty == CERTAINTY_CERTAIN) assert_true(hit.patch == 0 && hit.t < t_of_root + 0x1p-50);
+    if (list.certainty == CERTAINTY_CERTAIN) assert_true(listed);
+    tracer_occluded(world.tracer, 1, &s.ray, &occluded);
+    assert_true(occluded);
+    certain += hit.certainty == CERTAINTY_CERTAIN;
+    world_close(&world);
+  }
+  print_message("%d certain\n", certain);
 }
 
 TEST(a_piece_with_two_roots_is_not_said_to_have_one)
