@@ -67,19 +67,22 @@ static void flush_nothing(png_structp png) { (void)png; }
 
 /* ---- the file ---- */
 
-/* A line of metadata. The date has a chunk of its own. libpng does not change the texts. */
-static void put_text(png_structp png, png_infop info, const char *name, const char *value)
+static void set_date(png_structp png, png_infop info, const char *value)
 {
-  union {
-    const char *given;
-    char *taken;
-  } key = {name}, text = {value};
-  const png_text line = {.compression = PNG_TEXT_COMPRESSION_NONE, .key = key.taken, .text = text.taken};
   png_time date;
-  if (strcmp(name, "DateTime") != 0) png_set_text(png, info, &line, 1);
-  else if (sscanf(value, "%hu:%hhu:%hhu %hhu:%hhu:%hhu", &date.year, &date.month, &date.day, &date.hour, &date.minute,
-                  &date.second) == 6)
+  if (sscanf(value, "%hu:%hhu:%hhu %hhu:%hhu:%hhu", &date.year, &date.month, &date.day, &date.hour, &date.minute,
+             &date.second) == 6)
     png_set_tIME(png, info, &date);
+}
+
+/* A line of metadata, as png_set_text would make of it; but libpng 1.6.39 loses memory if that fails. */
+static void put_text(png_structp png, const char *name, const char *value)
+{
+  const size_t key = strlen(name) + 1, length = strlen(value);
+  png_write_chunk_start(png, (png_const_bytep) "tEXt", (png_uint_32)(key + length));
+  png_write_chunk_data(png, (png_const_bytep)name, key);
+  png_write_chunk_data(png, (png_const_bytep)value, length);
+  png_write_chunk_end(png);
 }
 
 /* All before the pixels: the chunks that OpenImageIO 2.4 writes, so that its readers find the same. */
@@ -94,10 +97,12 @@ static void put_head(png_structp png, png_infop info, const struct png_file *fil
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_NO_FILTERS);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
   png_set_oFFs(png, info, 0, 0, PNG_OFFSET_PIXEL);
-  put_text(png, info, "oiio:ColorSpace", "sRGB");
   for (const char *name = NULL; (name = image_next_text(file->image, name)) != NULL;)
-    put_text(png, info, name, name + strlen(name) + 1);
+    if (strcmp(name, "DateTime") == 0) set_date(png, info, name + strlen(name) + 1);
   png_write_info(png, info);
+  put_text(png, "oiio:ColorSpace", "sRGB");
+  for (const char *name = NULL; (name = image_next_text(file->image, name)) != NULL;)
+    if (strcmp(name, "DateTime") != 0) put_text(png, name, name + strlen(name) + 1);
 }
 
 /* Converts a row to the file's codes; those of 16 bits begin with the larger byte. */
