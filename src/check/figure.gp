@@ -18,7 +18,7 @@ plot $rows using 1:2 with linespoints pt 7 ps 0.6 lw 2 lc rgb '#2b6cb0' title '1
   '' using 1:3 with linespoints pt 7 ps 0.6 lw 2 lc rgb '#c05621' title '4/255', \
   '' using 1:4 with linespoints pt 7 ps 0.6 lw 2 lc rgb '#9b2c2c' title '16/255'
 {{/pixels}}{{#converging}}set title 'difference of distances, relative'
-set key center right
+set key top right
 plot $rows using 1:6 with linespoints pt 7 ps 0.6 lw 2 lc rgb '#c05621' title '99 %', \
   '' using 1:5 with linespoints pt 7 ps 0.6 lw 2 lc rgb '#2b6cb0' title 'median'
 set title 'CPU seconds over the error of 99 % of the distances'
