@@ -5,7 +5,7 @@
  *   certain: yes    the answer must be certain; `no`: it must not be
  *   t: T  uv: U V   where the hit must be, to the last places
  *   patch: N        its patch
- *   all: N          there must be N hits in all, certainly
+ *   all: N          there must be N hits in all, certainly; `grazing`: it must not be certain how many
  *   facing: X Y Z   the side of the normal */
 #include <dirent.h>
 #include <math.h>
@@ -65,6 +65,7 @@ static bool all_good(const struct trial *trial, struct certifier *certifier, con
   if (list.certainty == CERTAINTY_CERTAIN && nearest->certainty == CERTAINTY_CERTAIN &&
       (list.count > 0 ? list.hits[0].patch : HIT_NONE) != nearest->patch)
     return false;
+  if (!strcmp(count, "grazing")) return list.certainty == CERTAINTY_GRAZING;
   return !count[0] || (list.certainty == CERTAINTY_CERTAIN && list.count == strtoul(count, NULL, 10));
 }
 

@@ -86,11 +86,12 @@ static bool gives_up(struct judge *j, const struct waiting *it)
 }
 
 /* Where a and b are multiples of each other the ray meets curves. If t changes along them all over the piece, none of
- * them begins within it, and those that begin on the patch's borders are found there. */
+ * them begins within it; and those that begin on the patch's borders are found there, if these are all listed. */
 static bool decide_curves(struct judge *j, struct waiting *it)
 {
   if (j->asks == JUDGE_ALL) judge_undecided(j, it->near);
-  return (it->near > j->asked->ray->t_min && piece_depth_turns(&it->piece, &j->pool)) || gives_up(j, it);
+  const bool begins = j->sight.borders < 4 || it->near <= j->asked->ray->t_min;
+  return (!begins && piece_depth_turns(&it->piece, &j->pool)) || gives_up(j, it);
 }
 
 /* Returns whether the piece is done with. If not, all that it may hold is in the box. */
@@ -206,8 +207,7 @@ static void report_met(struct judge *j, int border)
   if (is_pole && place_in_range(j, &depth) == PLACE_IN) judge_root(j, &pole);
   if (is_pole) return;
   judge_maybe(j, at[0], at[1], (double)t[3 * end], 4 * UNIT_ROUNDOFF * fabs((double)t[3 * end]), near);
-  if (near <= j->asked->ray->t_min && far >= j->asked->ray->t_min)
-    judge_left(j, near, far); /* it may go on where the ray begins */
+  if (far >= j->asked->ray->t_min) judge_left(j, near, far); /* its other points */
 }
 
 /* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */

@@ -118,24 +118,17 @@ static bool add_pole(const struct piece *plane, const struct wedge *w, double *s
 static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
 {
   const struct piece *plane = &j->sight.plane;
-  struct direction in, out, between;
+  struct direction in, out, handle;
   if (!j->seen) return false;
   if (w->pole >= 0) return add_pole(plane, w, sum);
   if (!border_direction(plane, w->in, w->end, &in) || !border_direction(plane, w->out, out_end(w), &out)) return false;
-  double turn = angle(in, out);
-  if (fabs(turn) > HALF_TURN) { /* a smooth corner: by way of the control point between the two */
-    int straight = 0;           /* if just one border is, that point does not tell on which side the patch is */
-    for (int n = 0; n < j->sight.borders; n++) straight += j->sight.border[n] == w->in || j->sight.border[n] == w->out;
-    if (j->sight.met || (j->sight.borders > 0 && straight < 2)) return false;
-    const int at = edge_at(w->in, w->end ? 3 : 0);
-    const int inner = at + edge_inward(w->in) + edge_inward(w->out);
-    if (!direction_at(plane, inner, &between)) return false;
-    const double first = angle(in, between), second = angle(between, out);
-    if (fabs(first) > HALF_TURN || fabs(second) > HALF_TURN) return false;
-    turn = first + second;
-  }
+  /* Without a handle the corner's sector is as its borders say only if a combination of a and b themselves shows it. */
+  const bool regular = direction_at(plane, edge_at(w->in, w->end ? 2 : 1), &handle) &&
+                       direction_at(plane, edge_at(w->out, out_end(w) ? 2 : 1), &handle);
+  if (!regular && (j->sight.borders > 0 || j->sight.met)) return false;
+  const double turn = angle(in, out); /* at a smooth corner, either way */
   *sum += turn;
-  return true;
+  return fabs(turn) < HALF_TURN;
 }
 
 /* ---- crossings ---- */
