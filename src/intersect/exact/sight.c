@@ -225,5 +225,11 @@ bool sight_make(double (*P)[4][3], const struct ray *ray, struct pool *pool, str
     }
     if (on_line(piece, border) && !exchange(out, border, pool)) return false;
   }
+  /* If an exchange made a and b multiples of each other, the borders before it are on lines, too. */
+  for (int border = 0; border < 4 && out->dependent && out->borders > 0; border++) {
+    bool listed = false;
+    for (int k = 0; k < out->borders; k++) listed |= out->border[k] == border;
+    if (!listed && on_line(&out->off, border) && !exchange(out, border, pool)) return false;
+  }
   return true;
 }
