@@ -60,9 +60,9 @@ struct hit {
  *
  * `certain`: it is proven that there are `count` hits, that each is listed, and that this is their order. So a ray
  * whose t_max is infinite starts inside a closed surface if `count` is odd, and outside if it is even. `grazing`: not
- * proven, because the ray touches a surface or a crease from outside, meets an open border, or one where the nearest hit
- * would be grazing, or its share of work did not suffice. The list then has the proven hits and the possible ones, which
- * are grazing themselves. */
+ * proven, because the ray touches a surface or a crease from outside, meets an open border, a corner whose borders are
+ * on one line or nearly so, or a place where the nearest hit would be grazing, or its share of work did not suffice.
+ * The list then has the proven hits and the possible ones, which are grazing themselves. */
 struct hit_list {
   enum certainty certainty;
   size_t count;

@@ -133,11 +133,10 @@ static struct exact_root found_root(const struct placing *p)
 }
 
 /* Reports a root of which nothing better will be known. */
-static void report(const struct placing *p, enum place_within inside, enum place_within within)
+static void report(const struct placing *p, struct exact_root found, enum place_within inside, enum place_within within)
 {
   static const int sense[4] = {-1, 1, 1, -1}; /* of the way in which a border runs, and the way inward */
   struct judge *j = p->j;
-  struct exact_root found = found_root(p);
   const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
   const bool touches = p->corner && !p->on && j->asks == JUDGE_ALL && jacobian_sign(p, &found) == 0;
   if (within == PLACE_UNKNOWN) {
@@ -178,7 +177,7 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
       verdict = piece_root(&closer, true, &j->pool, &next);
     if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
     if (verdict == PIECE_OPEN) {
-      report(&p, inside, within);
+      report(&p, found, inside, within);
       break;
     }
     p.piece = closer, p.root = next;

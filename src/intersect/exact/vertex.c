@@ -80,12 +80,13 @@ static bool direction_at(const struct piece *plane, int at, struct direction *ou
   return size > 0;
 }
 
-/* The direction of a border away from that end: that of its first control value that is not the vertex. */
-static bool border_direction(const struct piece *plane, int border, int end, struct direction *out)
+/* The direction of a border away from that end: that of its first control value that is not the vertex. Returns its
+ * number from there, 1 to 3: at 1 the border has a handle; 0 for none. */
+static int border_direction(const struct piece *plane, int border, int end, struct direction *out)
 {
   for (int n = 1; n < 4; n++)
-    if (direction_at(plane, edge_at(border, end ? 3 - n : n), out)) return true;
-  return false;
+    if (direction_at(plane, edge_at(border, end ? 3 - n : n), out)) return n;
+  return 0;
 }
 
 /* The angle from a to b, less than half a turn. */
@@ -118,14 +119,13 @@ static bool add_pole(const struct piece *plane, const struct wedge *w, double *s
 static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
 {
   const struct piece *plane = &j->sight.plane;
-  struct direction in, out, handle;
+  struct direction in, out;
   if (!j->seen) return false;
   if (w->pole >= 0) return add_pole(plane, w, sum);
-  if (!border_direction(plane, w->in, w->end, &in) || !border_direction(plane, w->out, out_end(w), &out)) return false;
+  const int first[2] = {border_direction(plane, w->in, w->end, &in), border_direction(plane, w->out, out_end(w), &out)};
+  if (first[0] == 0 || first[1] == 0) return false;
   /* Without a handle the corner's sector is as its borders say only if a combination of a and b themselves shows it. */
-  const bool regular = direction_at(plane, edge_at(w->in, w->end ? 2 : 1), &handle) &&
-                       direction_at(plane, edge_at(w->out, out_end(w) ? 2 : 1), &handle);
-  if (!regular && (j->sight.borders > 0 || j->sight.met)) return false;
+  if ((first[0] > 1 || first[1] > 1) && (j->sight.borders > 0 || j->sight.met)) return false;
   const double turn = angle(in, out); /* at a smooth corner, either way */
   *sum += turn;
   return fabs(turn) < HALF_TURN;
