@@ -55,7 +55,6 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   }
   packet_charge(p, open & COST_PLANES);
   entered[STAGE_PLANES] += lanes_count(open);
-  planes_set(it);
   if (patch->method->polish) open = stage_cover(p, it, open);
   if (!lanes_any(open)) return;
   packet_charge(p, open & COST_RESULTANT);

@@ -65,14 +65,11 @@ struct candidate {
   const struct line *line; /* the packet's, for that axis */
   /* stage_bilinear: */
   struct leaf_root first; /* the first root found; meaningful only where it exists */
-  /* planes_set: */
-  lanes a[16], b[16]; /* nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
   /* stage_resultant: */
   struct leaf_form form;
-  lanes form_error;             /* of a coefficient of the form */
-  lanes form_a[16], form_b[16]; /* used if the form is not the leaf's own net */
-  const lanes *fa, *fb;
-  lanes alpha, beta; /* the largest of either */
+  lanes a[16], b[16];         /* nets of the planes' polynomials of that form, a[4 * i + j] */
+  lanes form_error;           /* of their coefficients */
+  lanes alpha, beta;          /* the largest of either */
   int degree;        /* of r, without its exact roots at the ends */
   lanes c_store[RESULTANT_MAX_DEGREE + 1];
   const lanes *c;   /* c[0..degree] */
@@ -168,12 +165,6 @@ LANES_INLINE void plane_values(const struct line *line, int axis, const double x
   const double k = x[axis][at], i = x[(axis + 1) % 3][at], j = x[(axis + 2) % 3][at];
   *a = (i - line->moment[0]) - line->slope[0] * k;
   *b = (j - line->moment[1]) - line->slope[1] * k;
-}
-
-/* Sets the plane polynomials a and b. */
-LANES_INLINE void planes_set(struct candidate *it)
-{
-  for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
 }
 
 #endif

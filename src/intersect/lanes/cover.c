@@ -257,6 +257,19 @@ static bool cover(const struct piece_ray *ray, struct piece stack[COVER_HALVINGS
   return true;
 }
 
+/* The net of a plane's polynomial; each coefficient is off by line->error at most. */
+LANES_INLINE void plane_net(const struct candidate *it, const struct piece_ray *ray, int number, struct net *out)
+{
+  const struct line *line = it->line;
+  const double moment = line->moment[number][ray->lane], slope = line->slope[number][ray->lane];
+  const double *x = it->leaf->x[(it->axis + 1 + number) % 3];
+  for (int n = 0; n < 4; n++) {
+    row along;
+    memcpy(&along, x + 4 * n, sizeof along);
+    out->c[n] = (along - moment) - slope * ray->depth.c[n];
+  }
+}
+
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2])
 {
@@ -272,9 +285,10 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const int lane = ray.lane = __builtin_ctz(bits);
     *leaf = (struct piece){.size_u = 1, .size_v = 1};
-    for (int n = 0; n < 16; n++)
-      leaf->f[0].c[n / 4][n % 4] = it->a[n][lane], leaf->f[1].c[n / 4][n % 4] = it->b[n][lane];
-    for (int k = 0; k < 2; k++) ray.size[k] = net_size(&leaf->f[k]), ray.error[k] = it->line->error[lane];
+    for (int k = 0; k < 2; k++) {
+      plane_net(it, &ray, k, &leaf->f[k]);
+      ray.size[k] = net_size(&leaf->f[k]), ray.error[k] = it->line->error[lane];
+    }
     if (pole < 4) piece_divide(&ray, pole, leaf);
     ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
     double middle[2];

@@ -21,13 +21,13 @@ static void set_form(struct candidate *it)
 {
   const struct leaf_form *form = &it->form;
   leaf_form_make(it->patch, it->leaf, &it->form);
-  it->fa = form->own ? it->a : it->form_a, it->fb = form->own ? it->b : it->form_b, it->form_error = it->line->error;
+  it->form_error = it->line->error;
   it->alpha = it->beta = lanes_all(0);
   for (int i = 0; i <= form->kept_degree; i++) {
     for (int j = 0; j <= form->eliminated_degree; j++) {
       const int n = 4 * i + j;
-      if (!form->own) plane_values(it->line, it->axis, form->x, n, &it->form_a[n], &it->form_b[n]);
-      it->alpha = lanes_max(it->alpha, lanes_abs(it->fa[n])), it->beta = lanes_max(it->beta, lanes_abs(it->fb[n]));
+      plane_values(it->line, it->axis, form->own ? it->leaf->x : form->x, n, &it->a[n], &it->b[n]);
+      it->alpha = lanes_max(it->alpha, lanes_abs(it->a[n])), it->beta = lanes_max(it->beta, lanes_abs(it->b[n]));
     }
   }
   if (form->own) return;
@@ -42,8 +42,8 @@ static void set_form(struct candidate *it)
 static lane_mask resultant_varies(struct candidate *it, lane_mask active)
 {
   const int m = it->form.kept_degree, n = it->form.eliminated_degree;
-  if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, it->fa, it->fb, it->c_store);
-  else bezout_lanes_resultant(m, n, it->fa, it->fb, it->c_store);
+  if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, it->a, it->b, it->c_store);
+  else bezout_lanes_resultant(m, n, it->a, it->b, it->c_store);
   it->c = it->c_store + it->form.zeros[0];
   it->degree = 2 * m * n - it->form.zeros[0] - it->form.zeros[1];
   const lanes alpha = it->alpha + it->form_error, beta = it->beta + it->form_error;
@@ -131,7 +131,7 @@ static lanes resultant_eliminated(const struct candidate *it, lanes kept)
   else if (m == 2) w[0] = s * s, w[1] = 2 * (s * kept), w[2] = kept * kept;
   else w[0] = s * s * s, w[1] = 3 * (s * s * kept), w[2] = 3 * (s * kept * kept), w[3] = kept * kept * kept;
   for (int i = 0; i <= m; i++)
-    for (int j = 0; j <= n; j++) p[j] += w[i] * it->fa[4 * i + j], q[j] += w[i] * it->fb[4 * i + j];
+    for (int j = 0; j <= n; j++) p[j] += w[i] * it->a[4 * i + j], q[j] += w[i] * it->b[4 * i + j];
   lanes num[2], den[2], better;
   bezout_lanes_null_vector(n, p, q, num, den, &better);
   const lane_mask first = better > 0;
@@ -177,7 +177,7 @@ static void lane_solve(const struct packet *p, const struct candidate *it, unsig
   if (left < 0 || tracer_stopped(p->tracer)) return;
   for (int i = 0; i <= it->form.kept_degree; i++)
     for (int j = 0; j <= it->form.eliminated_degree; j++)
-      planes.a[4 * i + j] = it->fa[4 * i + j][lane], planes.b[4 * i + j] = it->fb[4 * i + j][lane];
+      planes.a[4 * i + j] = it->a[4 * i + j][lane], planes.b[4 * i + j] = it->b[4 * i + j][lane];
   const double degree = 2 * it->form.kept_degree * it->form.eliminated_degree,
                step = degree * (method->polish ? 1.0 : BARE_COST) / PRODUCTS_A_UNIT; /* its cost */
   const double most = (double)left / (step * degree);                                /* of each root */
