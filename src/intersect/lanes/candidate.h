@@ -67,10 +67,10 @@ struct candidate {
   struct leaf_root first; /* the first root found; meaningful only where it exists */
   /* stage_resultant: */
   struct leaf_form form;
-  lanes a[16], b[16];         /* nets of the planes' polynomials of that form, a[4 * i + j] */
-  lanes form_error;           /* of their coefficients */
-  lanes alpha, beta;          /* the largest of either */
-  int degree;        /* of r, without its exact roots at the ends */
+  lanes a[16], b[16]; /* nets of the planes' polynomials of that form, a[4 * i + j] */
+  lanes form_error;   /* of their coefficients */
+  lanes alpha, beta;  /* the largest of either */
+  int degree;         /* of r, without its exact roots at the ends */
   lanes c_store[RESULTANT_MAX_DEGREE + 1];
   const lanes *c;   /* c[0..degree] */
   lanes variations; /* upper bound on the sign variations of c; -1: not counted */
@@ -88,8 +88,7 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open)
 lane_mask stage_leaves(const struct packet *p, const struct candidate *it, lane_mask open);
 
 /* cover.c: closes lanes where pieces that cover the leaf show that it has no root, by the default method also none
- * besides that of stage_bilinear. Where they do not, the default method seeks one more root, and examines the pieces
- * with both. */
+ * besides that of stage_bilinear and those that are found in the pieces. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: sets the form and, with polish, Bezout's resultant r of a and b in Bernstein form. Closes lanes where
@@ -132,11 +131,10 @@ struct known_root {
   lane_mask proven;
 };
 
-/* cover.c: the lanes of `open` on which all of the leaf's roots between the ends of the ray are among `roots`. On the
- * others `left`, if not NULL, gets the middle, in s and t, of a piece that is not done with, where one more root may
- * be. */
+/* cover.c: the lanes of `open` on which all of the leaf's roots between the ends of the ray are known: they are among
+ * `roots`, or are found and offered. For any hit, those found on other lanes are offered, too. */
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
-                       int halvings, lane_mask open, lanes left[2]);
+                       int halvings, lane_mask open);
 
 /* A patch lies within |w| < 1 in its frame; a ray is not examined beyond this. */
 #define FRAME_END 2.0

@@ -1,5 +1,6 @@
 /* Whether the known roots are all that a leaf has, by pieces that cover it, for one ray after the other: few need it. A
- * piece is done with if it has no root, or no other one than a proven one in it. Other pieces are halved.
+ * piece is done with if it has no root, or no other one than a proven one in it. Other pieces are halved, and if they
+ * seem to have one more root it is sought.
  *
  * A piece is a rectangle of the leaf's parameters with the nets of the ray's two planes' polynomials over it. The last
  * resort has the same operations in integers. The lanes are not rays here but coefficients, because pieces are examined
@@ -39,11 +40,16 @@ struct piece {
   int halvings;
 };
 
+/* The most further roots of a leaf. A choice of speed. */
+enum { MORE_ROOTS = 3 };
+
 /* What all pieces of one ray on a leaf share. */
 struct piece_ray {
   const struct leaf *leaf;
   int lane, count;
   const struct known_root *roots;
+  struct leaf_root more[MORE_ROOTS]; /* further roots that were found */
+  int more_count, splits;
   double size[2], error[2]; /* of the coefficients of either polynomial: a bound, and their errors */
   struct net depth;         /* x_k of the leaf, k being the ray's axis */
   double from, to;          /* the ray seeks roots between these x_k */
@@ -63,6 +69,12 @@ LANES_INLINE bool net_changes(const struct net *net, double error)
   const row *c = net->c, e = row_all(error);
   return row_any((c[0] <= e) | (c[1] <= e) | (c[2] <= e) | (c[3] <= e)) &&
          row_any((c[0] >= -e) | (c[1] >= -e) | (c[2] >= -e) | (c[3] >= -e));
+}
+
+LANES_INLINE double net_middle(const struct net *net)
+{
+  const row *c = net->c, ends = c[0] + c[3] + 3 * (c[1] + c[2]);
+  return (ends[0] + ends[3] + 3 * (ends[1] + ends[2])) / 64;
 }
 
 LANES_INLINE void net_combine(const struct net f[2], double p, double q, struct net *out)
@@ -108,6 +120,7 @@ LANES_INLINE void piece_halve(const struct piece_ray *ray, struct piece *piece, 
 struct aimed {
   struct net along[2];
   double error[2];
+  double slope; /* of either by its parameter of the piece, about */
 };
 
 /* The weights of a cubic's coefficients. */
@@ -140,7 +153,8 @@ LANES_INLINE bool piece_exclude(const struct piece_ray *ray, const struct piece 
     if (!net_changes(&piece->f[k], error[k])) return true;
     error[k] += 8 * UNIT_ROUNDOFF * ray->size[k]; /* three roundings of a combination */
   }
-  const double sense = du[0] * dv[1] < dv[0] * du[1] ? -1 : 1;
+  const double determinant = du[0] * dv[1] - dv[0] * du[1], sense = determinant < 0 ? -1 : 1;
+  out->slope = 0.5 * fabs(determinant);
   net_combine(piece->f, sense * dv[1], -sense * dv[0], &out->along[0]);
   out->error[0] = error[0] * fabs(dv[1]) + error[1] * fabs(dv[0]);
   if (!net_changes(&out->along[0], out->error[0])) return true;
@@ -178,18 +192,20 @@ LANES_INLINE bool piece_unique(const struct aimed *aimed)
 
 /* ---- root ---- */
 
+LANES_INLINE bool root_within(const struct newton_root *root, int lane, const struct piece *piece)
+{
+  const double u = root->u[lane], radius_u = root->radius_u[lane], v = root->v[lane], radius_v = root->radius_v[lane];
+  return u - radius_u >= piece->u && u + radius_u <= piece->u + piece->size_u && v - radius_v >= piece->v &&
+         v + radius_v <= piece->v + piece->size_v;
+}
+
 /* Whether a proven root of the ray is in the piece. */
 LANES_INLINE bool piece_root(const struct piece_ray *ray, const struct piece *piece)
 {
-  for (int k = 0; k < ray->count; k++) {
-    const struct known_root *root = &ray->roots[k];
-    if (!root->proven[ray->lane]) continue;
-    const double u = root->at->u[ray->lane], radius_u = root->at->radius_u[ray->lane];
-    const double v = root->at->v[ray->lane], radius_v = root->at->radius_v[ray->lane];
-    if (u - radius_u >= piece->u && u + radius_u <= piece->u + piece->size_u && v - radius_v >= piece->v &&
-        v + radius_v <= piece->v + piece->size_v)
-      return true;
-  }
+  for (int k = 0; k < ray->count; k++)
+    if (ray->roots[k].proven[ray->lane] && root_within(ray->roots[k].at, ray->lane, piece)) return true;
+  for (int k = 0; k < ray->more_count; k++)
+    if (root_within(&ray->more[k].at, ray->lane, piece)) return true;
   return false;
 }
 
@@ -233,26 +249,48 @@ LANES_INLINE void piece_divide(struct piece_ray *ray, int border, struct piece *
 /* The most pieces halved on a leaf. A choice of speed, as COVER_HALVINGS. */
 enum { COVER_SPLITS = 160 };
 
-/* The most halvings of the leaf to show that the ray passes it by, for a method that seeks its roots afterwards. A
- * choice of speed. */
-enum { MISS_HALVINGS = 3 };
+/* The most halvings of the leaf to show that the ray passes it by, for a method that seeks its roots afterwards; and
+ * the least of a piece in which one more root is sought, because larger ones are too bent. Choices of speed. */
+enum { MISS_HALVINGS = 3, SEEK_HALVINGS = 5 };
 
-/* Whether all pieces are done with. stack[0], the leaf, is set. Otherwise the middle of one that is not goes to left.
- * Sets the number of pieces halved. */
-static bool cover(const struct piece_ray *ray, struct piece stack[COVER_HALVINGS + 2], int halvings, double left[2],
-                  int *splits)
+/* Seeks one more root by Newton's method, from where the combinations' linear parts vanish, if that is in the piece. */
+static void piece_seek(const struct packet *p, const struct candidate *it, const struct piece *piece,
+                       const struct aimed *aimed, struct piece_ray *ray)
 {
-  *splits = 0;
+  double at[2];
+  if (piece->halvings < SEEK_HALVINGS || ray->more_count == MORE_ROOTS) return;
+  for (int k = 0; k < 2; k++) {
+    const double value = net_middle(&aimed->along[k]);
+    if (!(fabs(value) <= 0.5 * aimed->slope)) return;
+    at[k] = 0.5 - value / aimed->slope;
+  }
+  if (!piece_unique(aimed)) return;
+  const lanes start[2] = {lanes_all(piece->u + at[0] * piece->size_u - 0.5),
+                          lanes_all(piece->v + at[1] * piece->size_v - 0.5)};
+  const lane_mask here = lanes_mask(1u << ray->lane);
+  struct leaf_root *root = &ray->more[ray->more_count];
+  newton_solve(p, it->leaf, it->axis, start, here, root);
+  lane_mask further = here & root->at.exists;
+  for (int k = 0; k < ray->count; k++) further &= ~(ray->roots[k].proven & roots_meet(ray->roots[k].at, &root->at));
+  for (int k = 0; k < ray->more_count; k++) further &= ~roots_meet(&ray->more[k].at, &root->at);
+  ray->more_count += lanes_any(further);
+  ray->splits++; /* it takes as long */
+}
+
+/* Whether all pieces are done with. stack[0], the leaf, is set. */
+static bool cover(const struct packet *p, const struct candidate *it, struct piece_ray *ray,
+                  struct piece stack[COVER_HALVINGS + 2], int halvings)
+{
+  ray->more_count = ray->splits = 0;
   for (int top = 1; top > 0;) {
     struct piece *piece = &stack[--top];
     struct aimed aimed;
-    if (piece_exclude(ray, piece, &aimed) || (piece_root(ray, piece) && piece_unique(&aimed))) continue;
-    if (piece->halvings == halvings || *splits == COVER_SPLITS) {
-      left[0] = piece->u + 0.5 * piece->size_u - 0.5, left[1] = piece->v + 0.5 * piece->size_v - 0.5;
-      return false;
-    }
+    if (piece_exclude(ray, piece, &aimed)) continue;
+    if (!piece_root(ray, piece)) piece_seek(p, it, piece, &aimed, ray);
+    if (piece_root(ray, piece) && piece_unique(&aimed)) continue;
+    if (piece->halvings == halvings || ray->splits >= COVER_SPLITS) return false;
     piece_halve(ray, piece, piece + 1);
-    top += 2, ++*splits;
+    top += 2, ray->splits++;
   }
   return true;
 }
@@ -271,19 +309,21 @@ LANES_INLINE void plane_net(const struct candidate *it, const struct piece_ray *
 }
 
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
-                       int halvings, lane_mask open, lanes left[2])
+                       int halvings, lane_mask open)
 {
   struct piece stack[COVER_HALVINGS + 2], *leaf = &stack[0];
-  struct piece_ray ray = {.leaf = it->leaf, .count = count, .roots = roots};
+  struct piece_ray ray;
   lanes from, to, off;
   int pole = 0; /* the first border that is one */
   while (pole < 4 && !leaf_border_is_point(it->patch, it->leaf, pole)) pole++;
   /* up to t_max and not the nearest hit so far, or answers would depend on the way through the hierarchy */
   ray_ends(p, it, p->t_max, &from, &to, &off);
   off += 2 * it->line->error;
+  ray.leaf = it->leaf, ray.count = count, ray.roots = roots;
   memcpy(&ray.depth, it->leaf->x[it->axis], sizeof ray.depth);
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const int lane = ray.lane = __builtin_ctz(bits);
+    const lane_mask here = lanes_mask(bits & -bits);
     *leaf = (struct piece){.size_u = 1, .size_v = 1};
     for (int k = 0; k < 2; k++) {
       plane_net(it, &ray, k, &leaf->f[k]);
@@ -291,46 +331,21 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
     }
     if (pole < 4) piece_divide(&ray, pole, leaf);
     ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
-    double middle[2];
-    int splits;
-    const bool covered = cover(&ray, stack, halvings, middle, &splits);
-    p->postponed->left[lane] -= COST_BOX * (1 + 2 * splits);
-    if (covered) continue;
-    open &= ~lanes_mask(bits & -bits);
-    if (left) left[0][lane] = middle[0], left[1][lane] = middle[1];
+    const bool covered = cover(p, it, &ray, stack, halvings);
+    p->postponed->left[lane] -= COST_BOX * (1 + 2 * ray.splits);
+    if (!covered) open &= ~here;
+    if (!covered && !p->any) continue;
+    for (int k = 0; k < ray.more_count; k++) offer_root(p, it, &ray.more[k], here & inside(&ray.more[k].at));
   }
   return open;
 }
 
-/* Offers the two roots, as far as they are proven and distinct, on the lanes of `open` where they are all, and returns
- * these. Lanes where neither is proven are not tried. */
-static lane_mask cover_two(struct packet *p, const struct candidate *it, const struct leaf_root *first,
-                           const struct leaf_root *second, lane_mask open)
-{
-  const struct newton_root *one = &first->at, *two = &second->at;
-  const lane_mask same = one->exists & roots_meet(one, two);
-  const struct known_root known[2] = {{one, open & one->exists}, {two, open & two->exists & ~same}};
-  open &= known[0].proven | known[1].proven;
-  if (!lanes_any(open)) return open;
-  const int count = lanes_any(known[1].proven) ? 2 : 1;
-  const lane_mask covered = cover_proves(p, it, count, known, COVER_HALVINGS, open, NULL);
-  offer_root(p, it, first, covered & known[0].proven & inside(one));
-  if (count > 1) offer_root(p, it, second, (p->any ? open : covered) & known[1].proven & inside(two));
-  return covered;
-}
-
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
 {
-  if (it->patch->lanes != SOLVER_LANES_SIGNS) return open & ~cover_proves(p, it, 0, NULL, MISS_HALVINGS, open, NULL);
+  if (it->patch->lanes != SOLVER_LANES_SIGNS) return open & ~cover_proves(p, it, 0, NULL, MISS_HALVINGS, open);
   const struct newton_root *r = &it->first.at;
   const struct known_root known = {r, open & r->exists};
-  lanes left[2] = {{0}, {0}};
-  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_HALVINGS, open, left);
+  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_HALVINGS, open);
   offer_root(p, it, &it->first, (p->any ? known.proven : covered & known.proven) & inside(r));
-  open &= ~covered & p->live;
-  if (!lanes_any(open)) return open;
-  struct leaf_root second;
-  newton_solve(p, it->leaf, it->axis, left, open, &second);
-  const lane_mask more = second.at.exists;
-  return lanes_any(more) ? open & ~cover_two(p, it, &it->first, &second, more) & p->live : open;
+  return open & ~covered & p->live;
 }

@@ -348,7 +348,7 @@ static lane_mask all_roots_cover(struct packet *p, const struct candidate *it, c
     if (lanes_any(proven)) known[count++] = (struct known_root){r, proven};
   }
   if (it->patch->lanes == SOLVER_LANES_SIGNS) open &= some;
-  return cover_proves(p, it, count, known, COVER_HALVINGS, open, NULL);
+  return cover_proves(p, it, count, known, COVER_HALVINGS, open);
 }
 
 static void all_roots_offer(struct packet *p, const struct candidate *it, const struct all_roots *all, lane_mask where)
