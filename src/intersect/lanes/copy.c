@@ -79,7 +79,7 @@ void packet_leave(struct packet *inner)
   if (!lanes_any(taken)) return;
   const lanes uv[2] = {found->u, found->v}, radius[2] = {found->radius_u, found->radius_v};
   best_take(&outer->best, taken, uv, radius, t, found->patch, found->leaf);
-  outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);
+  outer->t_far = lanes_select(taken, far, outer->t_far);
   if (outer->any) outer->live &= ~taken;
   else fetch_patches(outer->model, found->patch, lanes_bits(taken));
   outer->moved = true;
