@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "base/real.h"
 #include "intersect/exact/judge.h"
 
 bool exact_list_add(struct exact_list *list, const struct exact_found *found)

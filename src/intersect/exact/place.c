@@ -9,7 +9,6 @@
 #include <math.h>
 
 #include "base/real.h"
-#include "geometry/edges.h"
 
 /* The most zooms into a root, each of up to 2^39; what is then not known is undecided. Two make a root sharp. */
 enum { ZOOMS = 4 };

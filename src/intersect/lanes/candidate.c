@@ -5,8 +5,6 @@
 #include "intersect/lanes/candidate.h"
 
 #include "base/real.h"
-#include "intersect/prepare/leaf.h"
-#include "intersect/prepare/patch.h"
 
 /* A leaf whose derivatives turn by more than this fraction of their size has its root far from that of its bilinear
  * part. An iteration for the latter is then in vain, and the next one's warm start is lost. A choice of speed, because

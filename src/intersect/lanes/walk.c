@@ -9,7 +9,6 @@
  * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  */
 #include "intersect/lanes/bundle.h"
-#include "intersect/prepare/leaf.h"
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 static void bundle_walk_all(struct bundle *b, const struct model *model);

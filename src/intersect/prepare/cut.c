@@ -14,7 +14,6 @@
 
 #include "base/memory.h"
 #include "base/real.h"
-#include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
 
 /* The most leaves along a side. */

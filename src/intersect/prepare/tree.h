@@ -7,7 +7,6 @@
 
 #include <math.h>
 
-#include "base/arena.h"
 #include "intersect/model.h"
 
 /* No frame is smaller than this, so that its reciprocal times a direction is finite. */
