@@ -14,7 +14,6 @@
 /* The answers of a packet's lanes. */
 struct answers {
   lanes u, v, t;
-  struct surface surface;
   lane_mask done; /* the point is sure, and the root has moved no farther than its radius */
 };
 
@@ -81,7 +80,8 @@ static void last_step_evaluate(const struct model_patch *patch, const struct dou
 /* Computes the answers on lanes whose best roots are on one patch, and whose rays share an axis; roots of `improves`
  * get new u, v and t. A lane whose steps do not end within the patch's size keeps its own. T is right to 2^-80 of the
  * patch's frame, near the ray's start to 2^-100, and then rounded once. */
-static struct answers last_step(const struct packet *p, const struct model_patch *patch, int axis, lane_mask improves)
+static struct answers last_step(const struct packet *p, const struct model_patch *patch, int axis, lane_mask improves,
+                                struct surface *surface)
 {
   const struct best *best = &p->best;
   const int k = axis, i = (k + 1) % 3, j = (k + 2) % 3;
@@ -130,7 +130,7 @@ static struct answers last_step(const struct packet *p, const struct model_patch
   const lanes to_u = a.u - u, to_v = a.v - v;
   lanes point[3];
   for (int c = 0; c < 3; c++) point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
-  surface_set(patch, point, jet.du, jet.dv, 1, &a.surface);
+  surface_set(patch, point, jet.du, jet.dv, 1, surface);
   a.done = ~lost & ~(again & near) & (lanes_abs(a.u - best->u) <= best->radius_u) &
            (lanes_abs(a.v - best->v) <= best->radius_v) & packet_has_digits(p, patch, NEAREST_START, best->t);
   return a;
@@ -192,10 +192,10 @@ unsigned finish_occluded(const struct packet *p, bool out[])
 /* ---- what is written ---- */
 
 /* Writes the hits of the lanes of `group`. Returns those that are not certain. */
-LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
+LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a,
+                                 const struct surface *on, struct hit out[])
 {
   const struct best *best = &p->best;
-  const struct surface *on = &a->surface;
   const unsigned doubt = packet_doubt(p);
   const lanes *across = on->normal,
               length = lanes_sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
@@ -267,9 +267,8 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
   const unsigned final = left & lanes_bits(p->best.final);
   if (final) {
     const struct best *best = &p->best;
-    const struct answers answers = {lanes_clamp(best->u, 0, 1), lanes_clamp(best->v, 0, 1), best->t, best->surface,
-                                    lanes_mask(final)};
-    grazing |= write_hits(p, final, &answers, out);
+    const struct answers answers = {lanes_clamp(best->u, 0, 1), lanes_clamp(best->v, 0, 1), best->t, lanes_mask(final)};
+    grazing |= write_hits(p, final, &answers, &best->surface, out);
   }
   left &= ~final;
   while (left) {
@@ -278,9 +277,10 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
     const int64_t patch = p->best.patch[first];
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
     struct patch_room room;
+    struct surface surface;
     const struct answers answers = last_step(p, model_patch_at(p->model, (uint32_t)patch, &room), axis,
-                                             lanes_mask(group) & p->best.certain);
-    grazing |= write_hits(p, group, &answers, out);
+                                             lanes_mask(group) & p->best.certain, &surface);
+    grazing |= write_hits(p, group, &answers, &surface, out);
     left &= ~group;
   }
   return grazing;
