@@ -324,7 +324,7 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const int lane = ray.lane = __builtin_ctz(bits);
     const lane_mask here = lanes_mask(bits & -bits);
-    *leaf = (struct piece){.size_u = 1, .size_v = 1};
+    leaf->u = leaf->v = 0, leaf->size_u = leaf->size_v = 1, leaf->halvings = 0;
     for (int k = 0; k < 2; k++) {
       plane_net(it, &ray, k, &leaf->f[k]);
       ray.size[k] = net_size(&leaf->f[k]), ray.error[k] = it->line->error[lane];
