@@ -80,13 +80,9 @@ static void set_surface(const struct model *model, const struct ray *ray, struct
     magnitude = real_max(magnitude, fabs(out->point[c]));
   }
   out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
-  /* The derivatives of a patch that is lost in its scene have products outside the doubles. */
-  int exponent;
-  const double part = frexp(tangent, &exponent);
-  for (int c = 0; c < 3; c++) su[c] = ldexp(su[c], -exponent), sv[c] = ldexp(sv[c], -exponent);
   vector_cross(su, sv, out->normal);
   const double length = vector_length(out->normal);
-  if (length > SURFACE_SURE * part * real_max(part, ldexp(SURFACE_LEAST, -exponent)))
+  if (length > SURFACE_SURE * tangent * real_max(tangent, SURFACE_LEAST)) /* never where products may underflow */
     vector_scale(1 / length, out->normal, out->normal);
   else unsure_normal(model, patch, direction, tangent, out);
   if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);

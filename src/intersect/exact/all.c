@@ -68,11 +68,11 @@ static bool overlap(const struct exact_found *a, const struct exact_found *b)
 static void leave_out_same(struct judge *j)
 {
   struct exact_found *at = j->list->at;
-  wide widest = 0;
+  wide widest = 0; /* of two that overlap, the difference is no more */
   list_sort(j->list);
-  for (size_t k = 0; k < j->list->count; k++) widest = wide_max(widest, at[k].root.t_error);
+  for (size_t k = 0; k < j->list->count; k++) widest = wide_max(widest, 2 * (wide)at[k].root.t_error);
   for (size_t a = 0; a < j->list->count; a++) {
-    for (size_t b = a + 1; b < j->list->count && at[b].root.t - at[a].root.t <= at[a].root.t_error + widest; b++) {
+    for (size_t b = a + 1; b < j->list->count && at[b].root.t - at[a].root.t <= widest; b++) {
       if (at[a].root.patch == LEFT_OUT || at[b].root.patch == LEFT_OUT || !overlap(&at[a], &at[b])) continue;
       const bool open = at[a].kind == EXACT_OPEN, other_open = at[b].kind == EXACT_OPEN;
       if (!open && !other_open && !judge_same(j, &at[a].root, &at[b].root)) continue;

@@ -73,7 +73,7 @@ struct exact_list {
 struct exact_case {
   const struct model *model;
   const struct ray *ray;          /* direction scaled to about 1 */
-  const struct exact_root *known; /* the nearest root that the lanes took; NULL for none */
+  const struct exact_root *known; /* the nearest root that the lanes took, if the nearest hit is wanted; or NULL */
   struct exact_region *regions;   /* in any order; the call reorders them. For all hits a patch may stand there twice */
   size_t region_count;
   double cut_from; /* neither what was left out nor a doubt begins before this t; infinite for none */
@@ -96,8 +96,8 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out);
 void exact_place(const struct exact_case *asked, struct exact_root *out);
 
 /* all.c: finds all hits of the ray. At first *list holds the roots that the lanes took; in the end it holds the hits in
- * their order: roots that count, and open places. `known` and `cut_from` are not used, and the number of regions has no
- * limit. Returns whether the result is proven. */
+ * their order: roots that count, and open places. The number of regions has no limit, and cut_from must be infinite.
+ * Returns whether the result is proven. */
 bool exact_all(const struct exact_case *asked, struct exact_list *list);
 
 /* all.c: returns false if there was no room. */

@@ -13,13 +13,13 @@ void judge_turn(struct judge *j, uint32_t patch)
   j->seen = sight_make(j->asked->model->scene->patches[patch].P, j->asked->ray, &j->pool, &j->sight);
 }
 
-/* The least and the largest t that the root may have. */
-static double least_t(const struct exact_root *root)
+double judge_least_t(const struct exact_root *root)
 {
   const wide t = root->t - root->t_error;
   return (double)t > t ? nextafter((double)t, -INFINITY) : (double)t;
 }
 
+/* The largest t that the root may have. */
 static double most_t(const struct exact_root *root)
 {
   const wide t = root->t + root->t_error;
@@ -32,7 +32,7 @@ static void set_limit(struct judge *j)
   j->limit = j->asked->ray->t_max;
   if (j->hit) j->limit = real_min(j->limit, most_t(&j->nearest));
   if (j->doubtful) j->limit = real_min(j->limit, most_t(&j->maybe));
-  if (j->asks == JUDGE_NEAREST && j->asked->known) j->limit = real_min(j->limit, most_t(j->asked->known));
+  if (j->asked->known) j->limit = real_min(j->limit, most_t(j->asked->known));
   if (j->asks == JUDGE_ANY && j->hit) j->limit = -INFINITY;
 }
 
@@ -53,7 +53,7 @@ bool judge_same(struct judge *j, const struct exact_root *a, const struct exact_
       fabs((double)(a->v - b->v)) > a->radius_v + b->radius_v)
     return false;
   /* Half the margin of a piece, 2^-70, from a root there is no other one of the same pair of polynomials. */
-  if (a->borders != b->borders) judge_undecided(j, real_min(least_t(a), least_t(b)));
+  if (a->borders != b->borders) judge_undecided(j, real_min(judge_least_t(a), judge_least_t(b)));
   return true;
 }
 
@@ -61,7 +61,7 @@ int judge_compare(struct judge *j, const struct exact_root *a, const struct exac
 {
   const wide apart = a->t - b->t, error = (wide)a->t_error + b->t_error;
   if (wide_abs(apart) > error) return apart < 0 ? -1 : 1;
-  if (!(judge_sharp(a) && judge_sharp(b))) judge_undecided(j, real_min(least_t(a), least_t(b)));
+  if (!(judge_sharp(a) && judge_sharp(b))) judge_undecided(j, real_min(judge_least_t(a), judge_least_t(b)));
   return 0;
 }
 
@@ -154,7 +154,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, enum judge_asks 
   j->asked = asked, j->asks = asks, j->list = list;
   j->hit = j->tied = j->doubtful = j->cut_short = false;
   j->pool = (struct pool){j->room, POOL_LIMBS, 0, (int64_t)asked->limit * WORK_PIECE};
-  j->undecided = asks == JUDGE_ALL ? INFINITY : asked->cut_from, j->patch = UINT32_MAX;
+  j->undecided = asked->cut_from, j->patch = UINT32_MAX;
   set_limit(j);
   search(j);
 }
@@ -167,14 +167,14 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
   bool theirs = false; /* the answer is the known root */
   struct judge j;
   judge_run(&j, asked, JUDGE_NEAREST, NULL);
-  if (known && !(j.hit && most_t(&j.nearest) < least_t(known))) { /* nothing is clearly before it */
+  if (known && !(j.hit && most_t(&j.nearest) < judge_least_t(known))) { /* nothing is clearly before it */
     theirs = asked->model->unproven || (!j.hit && j.undecided > most_t(known));
-    if (!theirs && !(j.hit && judge_same(&j, known, &j.nearest))) exact_search(&j, known->patch, least_t(known));
+    if (!theirs && !(j.hit && judge_same(&j, known, &j.nearest))) exact_search(&j, known->patch, judge_least_t(known));
     theirs |= !j.hit || (!j.tied && judge_same(&j, known, &j.nearest));
     if (!j.hit) j.nearest = *known, j.hit = true;
   }
-  const bool maybe = j.doubtful && !(j.hit && least_t(&j.nearest) <= most_t(&j.maybe));
-  out->sure = !maybe && (j.undecided == INFINITY || (j.hit && j.undecided > most_t(&j.nearest)));
+  const bool maybe = j.doubtful && !(j.hit && judge_least_t(&j.nearest) <= most_t(&j.maybe));
+  out->sure = j.undecided == INFINITY || (j.hit && j.undecided > most_t(&j.nearest)); /* a doubt is undecided, too */
   out->known = theirs && !maybe, out->hit = j.hit || maybe, out->root = maybe ? j.maybe : j.nearest;
   judge_end(&j);
 }
@@ -186,12 +186,10 @@ void exact_place(const struct exact_case *asked, struct exact_root *out)
 {
   struct ray ray = *asked->ray;
   struct exact_case here = *asked;
-  struct exact_region region = {asked->known->patch, least_t(asked->known)};
+  struct exact_region region = {asked->known->patch, judge_least_t(asked->known)};
   struct judge j;
-  ray.t_min = real_max(ray.t_min, nextafter(region.near, -INFINITY));
-  ray.t_max = real_min(ray.t_max, nextafter(most_t(asked->known), INFINITY));
-  here.ray = &ray, here.regions = &region, here.region_count = 1, here.cut_from = INFINITY;
-  here.limit = PLACE_LIMIT;
+  ray.t_min = region.near; /* the root is behind it, and within the ray's range */
+  here.ray = &ray, here.regions = &region, here.region_count = 1, here.limit = PLACE_LIMIT;
   judge_run(&j, &here, JUDGE_KNOWN, NULL);
   *out = j.hit ? j.nearest : *asked->known;
   judge_end(&j);

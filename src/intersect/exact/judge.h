@@ -109,7 +109,8 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
 /* A root of the patch, its borders included, that lies strictly within the ray's range. */
 void judge_root(struct judge *j, const struct exact_root *root);
 
-/* (u,v), with t known to t_error, may be a hit; what the point stands for begins at `from` or behind. */
+/* (u,v), clamped to the patch and with t known to t_error, may be a hit; what it stands for begins at `from` or
+ * behind. */
 void judge_maybe(struct judge *j, double u, double v, double t, double t_error, double from);
 
 /* What lies between those t is left undecided for want of work or room. */
@@ -126,6 +127,9 @@ static inline bool judge_sharp(const struct exact_root *root)
 {
   return root->radius_u <= 0x1p-106 && root->radius_v <= 0x1p-106;
 }
+
+/* The least t that the root may have. */
+double judge_least_t(const struct exact_root *root);
 
 /* ---- roots beside each other; what cannot be told is noted as undecided ---- */
 

@@ -15,13 +15,13 @@ enum { ZOOMS = 4 };
 
 /* ---- along the ray ---- */
 
-/* The product of two doubles is exact in wide arithmetic. */
+/* The product of two doubles is exact in wide arithmetic, and a depth's error has room for the rounding of `off`. */
 static enum place_within on_side(const struct depth *depth, double along, double t, bool after)
 {
   if (!(fabs(t) < INFINITY)) return (t > 0) == after ? PLACE_OUT : PLACE_IN;
   const wide bound = (wide)t * along, off = depth->w - bound;
-  if (depth->error > 0 && wide_abs(off) <= depth->error + 4 * WIDE_ROUNDOFF * wide_abs(bound)) return PLACE_UNKNOWN;
-  if (off == 0 && depth->error == 0 && depth->exact) return PLACE_OUT;
+  if (depth->error > 0 && wide_abs(off) <= depth->error) return PLACE_UNKNOWN;
+  if (off == 0 && depth->exact) return PLACE_OUT;
   const bool above = off > 0 || (off == 0 && !depth->exact);
   return (above == (along > 0)) == after ? PLACE_IN : PLACE_OUT;
 }
@@ -43,7 +43,7 @@ struct placing {
   const struct waiting *from;
   struct piece piece; /* zoomed in */
   struct piece_root root;
-  bool corner; /* it is exactly in the corner at `at` */
+  bool corner; /* it was found exactly in the corner at `at`: it may be singular */
   unsigned on; /* borders on which it lies */
   struct depth depth;
 };
@@ -65,13 +65,13 @@ static bool in_corner(struct placing *p)
       return false;
   }
   if (!piece_corner_root(&part[2], end[0], end[1], pool)) return false;
-  p->piece = part[2], p->root.at[0] = end[0], p->root.at[1] = end[1], p->root.radius = 0, p->corner = true;
+  p->piece = part[2], p->root.at[0] = end[0], p->root.at[1] = end[1], p->root.radius = 0;
   p->depth.w = piece_coefficient(&p->piece, NET_W, 12 * end[0] + 3 * end[1], &p->depth.exact), p->depth.error = 0;
   return true;
 }
 
-/* Sets p->on. Returns whether the root is in the patch. */
-static enum place_within in_patch(struct placing *p)
+/* Sets p->on. Returns whether the root is known to be in the patch; it may be outside by no more than its radius. */
+static bool in_patch(struct placing *p)
 {
   const int own = p->from->border >= 0 ? p->j->sight.border[p->from->border] : -1;
   unsigned unknown = 0;
@@ -79,14 +79,13 @@ static enum place_within in_patch(struct placing *p)
   for (int border = 0; border < 4; border++) {
     if (border == own || !(p->piece.borders >> border & 1)) continue;
     const double at = p->root.at[border / 2], inside = border & 1 ? 1 - at : at;
-    if (inside < -p->root.radius) return PLACE_OUT;
     if (inside <= p->root.radius) unknown |= 1u << border;
   }
   if (p->corner || (unknown && in_corner(p))) {
     p->on |= p->piece.borders & (1u << (int)p->root.at[0] | 4u << (int)p->root.at[1]);
-    return PLACE_IN;
+    return true;
   }
-  return unknown ? PLACE_UNKNOWN : PLACE_IN;
+  return !unknown;
 }
 
 /* Relative to the largest coefficients of a and b. A derivative is at most 6 times that, and a sum of 24 products with some
@@ -132,25 +131,24 @@ static struct exact_root found_root(const struct placing *p)
 }
 
 /* Reports a root of which nothing better will be known. */
-static void report(const struct placing *p, struct exact_root found, enum place_within inside, enum place_within within)
+static void report(const struct placing *p, struct exact_root found, bool inside, enum place_within within)
 {
   static const int sense[4] = {-1, 1, 1, -1}; /* of the way in which a border runs, and the way inward */
   struct judge *j = p->j;
-  const double t = (double)found.t, from = t - found.t_error - 4 * UNIT_ROUNDOFF * fabs(t);
+  const double t = (double)found.t, from = judge_least_t(&found);
   const bool touches = p->corner && !p->on && j->asks == JUDGE_ALL && jacobian_sign(p, &found) == 0;
   if (within == PLACE_UNKNOWN) {
     judge_undecided(j, from);
-  } else if (inside == PLACE_UNKNOWN || touches) {
-    judge_maybe(j, real_clamp((double)found.u, 0, 1), real_clamp((double)found.v, 0, 1), t, found.t_error, from);
+  } else if (!inside || touches) {
+    judge_maybe(j, (double)found.u, (double)found.v, t, found.t_error, from);
   } else {
-    if (__builtin_popcount(p->on) == 1) found.side = sense[__builtin_ctz(p->on)] * jacobian_sign(p, &found);
+    if (p->on) found.side = sense[__builtin_ctz(p->on)] * jacobian_sign(p, &found);
     judge_root(j, &found);
   }
 }
 
 void place_root(struct judge *j, const struct waiting *it, const struct piece_root *root)
 {
-  const size_t before = j->pool.used;
   struct placing p = {.j = j, .from = it, .piece = it->piece, .root = *root, .corner = root->radius == 0};
   for (int zooms = 0;; zooms++) {
     struct piece closer;
@@ -163,15 +161,15 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
     if (p.corner)
       p.depth.w = piece_coefficient(&p.piece, NET_W, 12 * (int)root->at[0] + 3 * (int)root->at[1], &p.depth.exact);
     else p.depth.w = piece_depth(&p.piece, p.root.at, p.root.radius, &p.depth.error, &p.depth.exact);
-    const enum place_within inside = in_patch(&p);
-    enum place_within within = inside == PLACE_OUT ? PLACE_OUT : place_in_range(j, &p.depth);
-    if (within == PLACE_UNKNOWN && !p.corner && in_corner(&p)) within = place_in_range(j, &p.depth);
-    if (inside == PLACE_OUT || within == PLACE_OUT) break;
+    const bool inside = in_patch(&p);
+    enum place_within within = place_in_range(j, &p.depth);
+    if (within == PLACE_UNKNOWN && in_corner(&p)) within = place_in_range(j, &p.depth);
+    if (within == PLACE_OUT) break;
     const struct exact_root found = found_root(&p);
     enum piece_verdict verdict = PIECE_OPEN;
     for (int k = 0; k < 2; k++)
       box[k][0] = p.root.at[k] - 16 * p.root.radius, box[k][1] = p.root.at[k] + 16 * p.root.radius;
-    if (zooms < ZOOMS && !(inside == PLACE_IN && within == PLACE_IN && judge_sharp(&found)) &&
+    if (zooms < ZOOMS && !(inside && within == PLACE_IN && judge_sharp(&found)) &&
         piece_box(&p.piece, box, &j->pool, &closer))
       verdict = piece_root(&closer, true, &j->pool, &next);
     if (verdict == PIECE_EMPTY) break; /* it is outside the patch, or in the neighbouring piece alone */
@@ -181,5 +179,4 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
     }
     p.piece = closer, p.root = next;
   }
-  j->pool.used = before;
 }

@@ -79,8 +79,7 @@ static bool gives_up(struct judge *j, const struct waiting *it)
 {
   const struct piece *piece = &it->piece;
   if (piece->size[0] > LEAST_SIZE || piece->size[1] > LEAST_SIZE) return false;
-  const double u = real_clamp((double)(piece->low[0] + piece->size[0] / 2), 0, 1);
-  const double v = real_clamp((double)(piece->low[1] + piece->size[1] / 2), 0, 1);
+  const double u = (double)(piece->low[0] + piece->size[0] / 2), v = (double)(piece->low[1] + piece->size[1] / 2);
   judge_maybe(j, u, v, it->near / 2 + it->far / 2, it->far / 2 - it->near / 2, it->near);
   return true;
 }
