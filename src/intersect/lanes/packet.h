@@ -162,19 +162,20 @@ LANES_INLINE unsigned packet_cut_off(const struct packet *p)
   return lanes_bits(p->postponed->cut_from < INFINITY) | p->postponed->exhausted;
 }
 
-/* What the lane leaves to the last resort, with what is left of its ray's budget. */
+/* What the lane leaves to the last resort, with what is left of its ray's budget; at least a sixteenth, so that the
+ * nearest hit is sought though the lanes have used up all. */
 static inline struct exact_case packet_case(const struct packet *p, unsigned lane)
 {
   struct postponed *postponed = p->postponed;
   const struct growing *gathered = p->gather ? &p->gather->lane[lane].regions : NULL;
-  const int64_t left = postponed->left[lane];
+  const int64_t left = postponed->left[lane], least = p->tracer->budget / 16;
   return (struct exact_case){.model = p->model,
                              .ray = &p->rays[lane],
                              .regions = gathered ? gathered->at : postponed->region[lane],
                              .region_count = gathered ? gathered->count : postponed->count[lane],
                              .cut_from = postponed->cut_from[lane],
                              .work = &p->tracer->counts.work,
-                             .limit = left > 0 ? (uint64_t)left / COST_EXACT : 0};
+                             .limit = (uint64_t)(left > least ? left : least) / COST_EXACT};
 }
 
 /* Charges each ray that cost: (a mask & a number is that number on the lanes of the mask, and 0 on the others). The
