@@ -89,19 +89,16 @@ struct root_starts {
 
 enum { RESULTANT_NEWTON_STEPS = 3 };
 
-/* The kept parameter where the control polygon of r crosses zero first or last, improved by Newton's method on r. */
-static lanes resultant_root(const struct candidate *it, bool first)
+/* The kept parameter where the control polygon of r crosses zero last, improved by Newton's method on r. */
+static lanes resultant_root(const struct candidate *it)
 {
   const int d = it->degree;
   lanes at = lanes_all(0.5), before = it->c[0];
-  lane_mask crossed = {0};
   double choose = 1;
   for (int k = 1; k <= d; k++) {
     choose = choose * (d - k + 1) / k;
     const lanes here = it->c[k] * (1 / choose);
-    const lane_mask crosses = (before * here < 0) & ~crossed;
-    if (first) crossed |= crosses;
-    at = lanes_select(crosses, (k - 1 + before / (before - here)) / d, at);
+    at = lanes_select(before * here < 0, (k - 1 + before / (before - here)) / d, at);
     before = here;
   }
   /* r(u) = (1-u)^d sum c_k x^k with x = u/(1-u). In the half of the range near 1, the coefficients are read
@@ -146,18 +143,6 @@ static void starts_set(const struct candidate *it, int k, lanes kept, struct roo
 {
   const lanes at = start_within(kept), other = start_within(resultant_eliminated(it, at));
   out->u[k] = it->form.v_kept ? other : at, out->v[k] = it->form.v_kept ? at : other;
-}
-
-/* Takes start values from where the control polygon of r crosses zero last and, if r may have several roots, first.
- * *out is empty before. */
-static void polygon_starts(const struct candidate *it, lane_mask open, struct root_starts *out)
-{
-  for (int k = 0; k < 2; k++) {
-    out->has[k] = k ? open & (it->variations >= 2) : open;
-    if (!lanes_any(out->has[k])) return;
-    starts_set(it, k, resultant_root(it, k == 1), out);
-    out->count = k + 1;
-  }
 }
 
 /* ---- roots on one ray after the other ---- */
@@ -363,7 +348,8 @@ lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask acti
   struct all_roots all;
   if (it->patch->lanes == SOLVER_LANES_SIGNS) {
     p->tracer->counts.roots_found += lanes_count(active);
-    polygon_starts(it, active, &starts);
+    starts_set(it, 0, resultant_root(it), &starts);
+    starts.has[0] = active, starts.count = 1;
   } else if (it->patch->lanes != SOLVER_LANES_NONE) {
     all_roots_find(p, it, active, &starts);
   } else {
