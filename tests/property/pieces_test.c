@@ -276,10 +276,23 @@ TEST(a_root_is_in_every_piece_that_holds_it)
   assert_true(boxes > 2 * CASES && empties > CASES); /* pieces next to tangencies are cut, those beside roots dropped */
 }
 
+/* However little memory the search has, it does not pass the point over. */
+static void check_little_room(struct random *random, const struct subject *s, const struct world *world)
+{
+  static struct judge j;
+  uint64_t work = 0;
+  const struct exact_case asked = {
+    .model = world->tracer->model, .ray = &s->ray, .cut_from = INFINITY, .work = &work, .limit = 1 << 12};
+  judge_run(&j, &asked, JUDGE_ANY, NULL);
+  j.pool.room = random_bits(random) % 2048;
+  exact_search(&j, 0, 0);
+  assert_true(j.hit || j.doubtful || j.cut_short);
+}
+
 /* All of it together: neither the nearest hit nor all hits are certain and without that point. */
 TEST(a_ray_meets_what_it_goes_through)
 {
-  struct random random = {SEED + 4};
+  struct random random = {SEED + 4}, other = {SEED + 5};
   int certain = 0;
   for (int n = 0; n < CASES / 5; n++) {
     struct subject s;
@@ -295,6 +308,7 @@ TEST(a_ray_meets_what_it_goes_through)
     if (list.certainty == CERTAINTY_CERTAIN) assert_true(listed);
     tracer_occluded(world.tracer, 1, &s.ray, &occluded);
     assert_true(occluded);
+    check_little_room(&other, &s, &world);
     certain += hit.certainty == CERTAINTY_CERTAIN;
     world_close(&world);
   }

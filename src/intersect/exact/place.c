@@ -155,7 +155,7 @@ void place_root(struct judge *j, const struct waiting *it, const struct piece_ro
     struct piece_root next;
     double box[2][2];
     if (!piece_exact(&p.piece, &j->pool)) {
-      judge_undecided(j, it->near);
+      judge_left(j, it->near, it->far);
       break;
     }
     if (p.corner)
