@@ -1,7 +1,6 @@
 # The figures of docs/method.md, in its folder method/: gnuplot examples/method.gp
 set encoding utf8
 set terminal svg size 900,420 font 'sans,13' background rgb 'white'
-set label 99 'gnuplot examples/method.gp' at screen 0.995,0.015 right font ',9' tc rgb 'gray50'
 red = '#c02020'; blue = '#2b6cb0'; green = '#2f855a'; brown = '#b7791f'; violet = '#6b46c1'
 
 # A function named like a net: its 16 coefficients in Bernstein form, of u^i v^j at 4 i + j.
@@ -288,7 +287,7 @@ unset multiplot
 at(c, k) = real(word(c, k + 1))
 choose(n, k) = gamma(n + 1) / gamma(k + 1) / gamma(n - k + 1)
 conv(x, y, n) = sum [i = 0:n] (i < words(x) && n - i < words(y) ? at(x, i) * at(y, n - i) : 0)
-array P[4]; array Q[4]; array M[12]; array E[3]; array R[3]; array first[3]; array last[3]
+array P[4]; array Q[4]; array M[12]; array E[3]; array R[3]; array last[3]
 o_x = '-0.6 1.2 1'; o_y = '0.8 0.2 -0.4' # where they start, z = 1.2
 do for [ray = 1:3] {
   x0 = at(o_x, ray - 1); y0 = at(o_y, ray - 1)
@@ -318,14 +317,11 @@ do for [ray = 1:3] {
     r = (conv(M[1], E[1], n) - conv(M[2], E[2], n) + conv(M[3], E[3], n)) / choose(18, n)
     R[ray] = R[ray].sprintf('%.15g ', r); most = abs(r) > most ? abs(r) : most
   }
-  # coefficients of 1 at most; where the polygon crosses zero first and last
-  c = ''; first[ray] = NaN; last[ray] = NaN
+  # coefficients of 1 at most; where the polygon crosses zero last
+  c = ''; last[ray] = NaN
   do for [n = 0:18] { c = c.sprintf('%.6g ', at(R[ray], n) / most) }
   do for [n = 1:18] {
-    if (at(c, n - 1) * at(c, n) < 0) {
-      last[ray] = (n - 1 + at(c, n - 1) / (at(c, n - 1) - at(c, n))) / 18
-      first[ray] = first[ray] == first[ray] ? first[ray] : last[ray]
-    }
+    if (at(c, n - 1) * at(c, n) < 0) { last[ray] = (n - 1 + at(c, n - 1) / (at(c, n - 1) - at(c, n))) / 18 }
   }
   R[ray] = c
 }
@@ -345,7 +341,6 @@ do for [ray = 1:3] {
   plot 0 lc rgb 'gray50', \
     N using (($1 - 1) / 18.0):(at(R[ray], int($1) - 1)) with linespoints pt 7 ps 0.5 lc rgb brown, \
     [u = 1e-9:1 - 1e-9] '+' using 1:(r(R[ray], $1)) with lines lw 2 lc rgb blue, \
-    '+' every ::0::0 using (last[ray]):(0) with points pt 7 ps 0.9 lc rgb red, \
-    '+' every ::0::0 using (first[ray]):(0) with points pt 6 ps 1.2 lw 1.5 lc rgb red
+    '+' every ::0::0 using (last[ray]):(0) with points pt 7 ps 0.9 lc rgb red
 }
 unset multiplot
