@@ -52,9 +52,9 @@ static bool wedge_of(const struct model *model, const struct exact_root *root, s
   for (int k = 0; k < count; k++) {
     if (!edge_is_point(model->scene->patches[root->patch].P, bits[k])) continue;
     *out = wedge_at(model, root->patch, bits[k] < 2 ? 2 : 0, bits[k] & 1);
-    return out->pole == bits[k];
+    return true;
   }
-  if (count != 2 || bits[1] < 2 || bits[0] > 1) return false;
+  if (count != 2) return false;
   *out = wedge_at(model, root->patch, bits[0], bits[1] & 1);
   return true;
 }
@@ -62,9 +62,8 @@ static bool wedge_of(const struct model *model, const struct exact_root *root, s
 /* Whether the two are the same place of one patch. */
 static bool same_wedge(const struct wedge *a, const struct wedge *b)
 {
-  if (a->patch != b->patch || (a->pole >= 0) != (b->pole >= 0)) return false;
-  if (a->pole >= 0) return a->pole == b->pole;
-  return (a->in == b->in && a->out == b->out) || (a->in == b->out && a->out == b->in);
+  if (a->patch != b->patch || a->pole != b->pole) return false;
+  return a->pole >= 0 || (a->in == b->in && a->out == b->out) || (a->in == b->out && a->out == b->in);
 }
 
 /* ---- angles ---- */
