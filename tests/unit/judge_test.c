@@ -304,6 +304,26 @@ TEST(the_nearest_hit_is_decided)
   assert_true(work == alone); /* nothing behind the hit is searched */
 }
 
+/* Of the patch, one polynomial is zero at a border's first two control points and positive elsewhere, so in that piece the
+ * corner's root is the only one; but not if both are zero in another corner, which the ray meets before or behind. */
+TEST(a_root_in_a_corner_is_alone_unless_there_is_one_in_another_corner)
+{
+  static const int others[4] = {0, 3, 12, 15}, z[16] = {0, 1, -1, 2, -2, 1, 3, -1, 1, -3, 2, 1, 3, 2, -1, 1};
+  for (int n = 0; n < 16; n++) {
+    struct exact_decision out;
+    const int other = others[n % 4];
+    ask(BIT(FIRST));
+    for (int k = 0; k < 16; k++) {
+      double *P = n % 8 < 4 ? patches[FIRST].P[k / 4][k % 4] : patches[FIRST].P[k % 4][k / 4];
+      const bool met = k == 0 || k == other;
+      P[0] = (k == other) == (n < 8) || other == 0 ? 1 : 2;
+      P[1] = 1.25 + (met || k == 1 ? 0 : 1), P[2] = met ? 0 : z[k];
+    }
+    exact_closest(&asked, &out);
+    assert_true(out.sure && out.hit && out.root.t == 1);
+  }
+}
+
 TEST(a_known_root_is_the_answer_if_nothing_else_is_near)
 {
   const double off = 0x1p-20;
