@@ -132,27 +132,26 @@ static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
 
 /* ---- crossings ---- */
 
-/* The index of the list's root in the wedge, at one t with `at`; the count for none. */
-static size_t root_in(struct judge *j, const struct wedge *w, size_t at)
+/* The index of the list's root in the wedge; the count for none. */
+static size_t root_in(const struct judge *j, const struct wedge *w)
 {
-  struct exact_found *found = j->list->at;
+  const struct exact_found *found = j->list->at;
   for (size_t k = 0; k < j->list->count; k++) {
     struct wedge its;
     if (found[k].root.patch == w->patch && found[k].kind == EXACT_BORDER &&
-        wedge_of(j->asked->model, &found[k].root, &its) && same_wedge(w, &its) &&
-        judge_compare(j, &found[k].root, &found[at].root) == 0)
+        wedge_of(j->asked->model, &found[k].root, &its) && same_wedge(w, &its))
       return k;
   }
   return j->list->count;
 }
 
-static size_t round_vertex(struct judge *j, size_t at, const struct wedge *start, size_t out[VERTEX_MAX])
+static size_t round_vertex(struct judge *j, const struct wedge *start, size_t out[VERTEX_MAX])
 {
   const double whole = 2 * acos(-1);
   struct wedge w = *start;
   double sum = 0;
   for (size_t count = 0; count < VERTEX_MAX;) {
-    const size_t found = root_in(j, &w, at);
+    const size_t found = root_in(j, &w);
     if (found == j->list->count) return 0;
     judge_turn(j, w.patch);
     if (!add_wedge(j, &w, &sum)) return 0;
@@ -186,7 +185,7 @@ static size_t across_border(struct judge *j, size_t at, size_t out[VERTEX_MAX])
 size_t vertex_crossed(struct judge *j, size_t at, size_t out[VERTEX_MAX])
 {
   struct wedge start;
-  if (wedge_of(j->asked->model, &j->list->at[at].root, &start)) return round_vertex(j, at, &start, out);
+  if (wedge_of(j->asked->model, &j->list->at[at].root, &start)) return round_vertex(j, &start, out);
   const unsigned borders = j->list->at[at].root.borders;
   return borders & (borders - 1) ? 0 : across_border(j, at, out);
 }
