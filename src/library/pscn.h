@@ -136,7 +136,7 @@ struct pscn_options {
   int32_t untrusted;
   int32_t lenient; /* 1: what pscn does not support of POV-Ray's language is left out, with warnings */
   double clock;    /* the value of that word in the text */
-  size_t max_work; /* limit on the tokens that loops and macros of the text may read; 0: 20 million, about a second */
+  size_t max_work; /* limit on the tokens that loops and macros of the text may read; 0: 15 million, about a second */
 };
 
 #define PSCN_OPTIONS                                                                       \

@@ -4,6 +4,7 @@ set -euo pipefail
 for program; do
   command -v "$program" >/dev/null || { echo "skipped: $program is not installed" >&2; exit 77; }
 done
+: "${PSCN:=$PSCN_SOURCE_DIR/build/src/command/pscn}" # of a release, unless ctest says which
 folder=$(mktemp -d)
 trap '[ $BASHPID != $$ ] || rm -rf "$folder"' EXIT # not in a child that is killed before it is a program
 export LC_ALL=C HOME=$folder

@@ -3,7 +3,7 @@
 #
 #   gamma.sh            compares pscn with POV-Ray, and both with docs/povray.md
 #   gamma.sh --print    prints the table
-. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray oiiotool
+. "${PSCN_SOURCE_DIR:=$(realpath "$(dirname "$0")/../..")}/tests/peers/begin.sh" povray oiiotool
 LIMIT=0.1/255 # of 16 bits; POV-Ray's colours are floats
 failed=0
 

@@ -5,7 +5,7 @@
 #
 #   kinds.sh            compares with docs/povray.md
 #   kinds.sh --print    prints the first two columns of the table
-. "$PSCN_SOURCE_DIR/tests/peers/begin.sh"
+. "${PSCN_SOURCE_DIR:=$(realpath "$(dirname "$0")/../..")}/tests/peers/begin.sh" zcat
 here=$PSCN_SOURCE_DIR/tests/peers/kinds
 debian=/usr/share/doc/povray/examples
 failed=0
