@@ -1,7 +1,7 @@
 /* Root finding: the run-time table of solvers, the options of one, and its answer.
  *
- * A solver takes one real polynomial and answers its roots, each with an error radius. Nothing here knows of rays. All
- * functions are safe on any thread and allocate nothing. Nothing fails: for each root, the answer says whether it was
+ * A solver takes one real polynomial and returns its roots, each with an error radius. Nothing here knows of rays. All
+ * functions are safe on any thread and allocate nothing. Nothing fails: for each root, the result says whether it was
  * found.
  */
 #ifndef PSCN_ALGEBRA_SOLVER_H
@@ -46,7 +46,7 @@ enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL }; /* all at once: the last swe
 enum horner { HORNER_PLAIN, HORNER_CHARTS };        /* values in powers of z, or of 1/z where |z| > 1 */
 enum deflation { DEFLATION_FORWARD, DEFLATION_COMPOSITE };
 
-/* A watcher: it is told the values z, in u, that the iterations of a solver pass, in the order in which they arise.
+/* A watcher: `tell` receives the values z, in u, that the iterations of a solver pass, in their order.
  * `root` counts the roots of the polynomial as the solver does, from 0; step 0 is the start. */
 struct solver_watch {
   void (*tell)(void *context, int root, int step, double re, double im);

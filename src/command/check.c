@@ -163,10 +163,10 @@ const struct command command_check = {
   .summary = "Renders a scene here and by POV-Ray and compares the pictures",
   .description =
     "POV-Ray renders the scene as it is written, and then with every patch cut finer and finer (u_steps = v_steps =\n"
-    "1 to 6, flatness 0), which shows it converging towards the exact surface. Standard output has the number of\n"
-    "pixels that differ by more than 1, 4 and 16 of 255, of those beyond the limit that are not on a silhouette, a\n"
-    "shadow's edge or a crease, and of those that only one of both hits; the time of both; and the differences of\n"
-    "the distances that POV-Ray's trace() returns. DIR receives the self-contained check.html, check.json, and the\n"
+    "1 to 6, flatness 0), which shows it converging towards the exact surface. Standard output has the percentage\n"
+    "of pixels that differ by more than 1, 4 and 16 of 255; the number of those beyond the limit that are not on a\n"
+    "silhouette, a shadow's edge or a crease, and of those that only one of both hits; the time of both; and the\n"
+    "differences of the distances that POV-Ray's trace() returns. DIR receives check.html, check.json and the\n"
     "pictures. The exit code is 1 if the last picture exceeds a limit.\n"
     "\n"
     "POV-Ray runs without the user's settings, on one thread, without antialiasing, in a folder of its own, with a\n"
