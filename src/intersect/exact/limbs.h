@@ -113,7 +113,7 @@ static inline wide limbs_wide(const limb *a, int n, int exponent, bool *exact)
   const int bits = limbs_bits(a, n), shift = bits > 112 ? bits - 112 : 0;
   const wide high = (wide)limbs_window(a, n, shift + 56);
   const wide low = (wide)((limb)limbs_window(a, n, shift) & (((limb)1 << 56) - 1));
-  *exact = shift == 0 || limbs_zero(a, n) || limbs_twos(a) >= shift;
+  *exact = shift == 0 || limbs_twos(a) >= shift;
   wide x = high * 0x1p56 + low;
   for (exponent += shift; exponent < -1000; exponent += 1000) x *= 0x1p-1000;
   return x * (wide)ldexp(1, exponent);

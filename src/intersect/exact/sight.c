@@ -158,13 +158,13 @@ static bool divide(struct piece *piece, int k, int border, struct pool *pool)
 }
 
 /* The pair whose roots are those of net `kept` on the border: its values there, wherever in the patch, and the distance
- * from the border. */
+ * from the border. As in an exchange, exponents of a and b are not kept: only those of the plane count. */
 static bool set_on(const struct piece *from, int kept, int border, struct pool *pool, struct piece *out)
 {
   const int limbs = from->limbs[kept];
   *out = *from;
-  out->net[NET_A] = pool_net(pool, limbs), out->limbs[NET_A] = limbs, out->exponent[NET_A] = from->exponent[kept];
-  out->net[NET_B] = pool_net(pool, 1), out->limbs[NET_B] = 1, out->exponent[NET_B] = 0;
+  out->net[NET_A] = pool_net(pool, limbs), out->limbs[NET_A] = limbs;
+  out->net[NET_B] = pool_net(pool, 1), out->limbs[NET_B] = 1;
   if (!out->net[NET_A] || !out->net[NET_B]) return false;
   for (int n = 0; n < 4; n++) {
     for (int row = 0; row < 4; row++) {
@@ -197,10 +197,8 @@ static bool exchange(struct sight *s, int border, struct pool *pool)
   if (!set_on(piece, kept, border, pool, &s->on[s->borders++])) return false;
   if (zero) s->dependent |= !piece_misses(piece); /* multiples of each other, and zero somewhere */
   if (!zero) {
-    const int exponent = piece->exponent[0] + piece->exponent[1];
     piece->net[NET_A] = piece->net[kept], piece->limbs[NET_A] = piece->limbs[kept];
-    piece->exponent[NET_A] = piece->exponent[kept];
-    piece->net[NET_B] = net, piece->limbs[NET_B] = limbs, piece->exponent[NET_B] = exponent;
+    piece->net[NET_B] = net, piece->limbs[NET_B] = limbs;
     trim(piece, NET_B);
     do {
       if (!divide(piece, NET_B, border, pool)) return false;
