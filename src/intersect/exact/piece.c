@@ -64,7 +64,7 @@ void piece_measure(struct piece *piece)
     piece->error[k] = PIECE_ERROR;
   }
   piece->bits[NET_W] = net_bits(piece->net[NET_W], piece->limbs[NET_W]);
-  const int limbs = limbs_for(piece->bits[NET_W] + 2);
+  const int limbs = limbs_for(piece->bits[NET_W] + 1);
   piece_depth_changes(piece, limbs, change);
   const int bits = net_round(change, limbs, piece->value[NET_W]);
   piece->scale = bits + piece->exponent[NET_W];
@@ -125,7 +125,7 @@ static bool part_exactly(const struct piece *piece, int axis, struct pool *pool,
 {
   const int log2 = piece->log2[axis];
   for (int k = 0; k < NETS; k++) {
-    out->limbs[k] = limbs_for(piece->bits[k] + 3 * log2 + 1), out->exponent[k] = piece->exponent[k] - 3 * log2;
+    out->limbs[k] = limbs_for(piece->bits[k] + 3 * log2), out->exponent[k] = piece->exponent[k] - 3 * log2;
     out->net[k] = pool_net(pool, out->limbs[k]);
     if (!out->net[k]) return false;
     for (int row = 0; row < 4; row++) {
@@ -285,7 +285,7 @@ limb *piece_combine(const struct piece *piece, struct weight p, struct weight q,
 {
   const int in[2] = {piece->limbs[NET_A], piece->limbs[NET_B]};
   const int bits[2] = {piece->bits[NET_A] + limbs_bits(p.at, p.limbs), piece->bits[NET_B] + limbs_bits(q.at, q.limbs)};
-  const int limbs = *out_limbs = limbs_for((bits[0] > bits[1] ? bits[0] : bits[1]) + 2);
+  const int limbs = *out_limbs = limbs_for((bits[0] > bits[1] ? bits[0] : bits[1]) + 1);
   limb *out = pool_net(pool, limbs), product[PIECE_LIMBS_MAX];
   for (int c = 0; c < 16 && out; c++) {
     limbs_product(out + c * limbs, limbs, p.at, p.limbs, piece->net[NET_A] + c * in[0], in[0]);

@@ -126,7 +126,7 @@ wide piece_depth(const struct piece *piece, const double at[2], double radius, d
 /* Whether w changes all along every curve on which a (b, if a is 0 all over) is zero: their Jacobian is not singular. */
 bool piece_depth_turns(struct piece *piece, struct pool *pool);
 
-/* The net of w less its first coefficient, `limbs` long each, which takes two bits more than w. */
+/* The net of w less its first coefficient, `limbs` long each, which takes one bit more than w. */
 void piece_depth_changes(const struct piece *piece, int limbs, limb *out);
 
 /* Bounds of w on the piece. */

@@ -28,7 +28,7 @@ static void slopes_round(const struct piece *piece, struct slopes *out)
 
 static void slopes_exact(const struct piece *piece, int k, struct slopes *out)
 {
-  const int limbs = out->limbs[k] = limbs_for(piece->bits[k] + 6);
+  const int limbs = out->limbs[k] = limbs_for(piece->bits[k] + 5);
   memset(out->exact[k], 0, sizeof out->exact[k]);
   for (int c = 0; c < 16; c++) {
     limb x[PIECE_LIMBS_MAX];
@@ -67,7 +67,7 @@ static bool combine_exactly(const struct piece *piece, struct slopes *slopes, in
 {
   const size_t before = pool->used;
   int limbs;
-  if (limbs_for((piece->bits[0] > piece->bits[1] ? piece->bits[0] : piece->bits[1]) + 6) > PIECE_LIMBS_MAX)
+  if (limbs_for((piece->bits[0] > piece->bits[1] ? piece->bits[0] : piece->bits[1]) + 5) > PIECE_LIMBS_MAX)
     return false;
   for (int k = 0; k < 2; k++) slopes_exact(piece, k, slopes);
   const struct weight p = {slopes->exact[1][1 - d], slopes->limbs[1]}, q = {slopes->exact[0][1 - d], slopes->limbs[0]};
@@ -294,7 +294,7 @@ enum piece_verdict piece_root(struct piece *piece, bool fine, struct pool *pool,
 bool piece_depth_turns(struct piece *piece, struct pool *pool)
 {
   if (!piece_exact(piece, pool)) return false;
-  const int limbs = limbs_for(piece->bits[NET_W] + 2), k = piece->bits[NET_A] == 0;
+  const int limbs = limbs_for(piece->bits[NET_W] + 1), k = piece->bits[NET_A] == 0;
   const size_t before = pool->used;
   struct row row[2];
   struct slopes slopes;
