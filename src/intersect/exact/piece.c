@@ -318,9 +318,8 @@ wide piece_depth(const struct piece *piece, const double at[2], double radius, d
   if (most == 0) return start;
   const double unit = ldexp(1, piece->scale);
   const struct patch_jet jet = patch_evaluate(rest, at[0], at[1]);
-  /* derivatives on the margin, of both parameters; roundings as in newton; the start's last place */
+  /* derivatives on the margin, of both parameters; roundings as in newton; the start, known to 112 bits, and the sum */
   *error = (2 * 6 * PIECE_GROWTH * most * radius + PIECE_MARGIN_OFF * 21 * UNIT_ROUNDOFF * most) * unit +
-           (double)(4 * WIDE_ROUNDOFF * wide_abs(start));
-  *exact = false;
+           (double)(6 * WIDE_ROUNDOFF * wide_abs(start));
   return start + (wide)(jet.value * unit);
 }
