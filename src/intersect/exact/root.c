@@ -187,15 +187,13 @@ static double series_off(const double net[4][4], const struct series *f, bool se
   return off;
 }
 
-/* Roundings of a number in [0, 1], of which the box takes no notice otherwise. */
-#define BOX_SLACK 0x1p-46
-
-/* Cuts the box to where centre + x[0] e + x[1] (e turned left) lies, if x[k] is in range[k]. Returns whether any is. */
+/* Cuts the box to where centre + x[0] e + x[1] (e turned left) lies, if x[k] is in range[k]. Returns whether any is. It
+ * rounds by up to 10 UNIT_ROUNDOFF, which the ranges have to spare. */
 static bool cut_box(double box[2][2], const double e[2], double range[2][2])
 {
   for (int axis = 0; axis < 2; axis++) {
     const double by[2] = {e[axis], axis ? e[0] : -e[1]};
-    double low = 0.5 - BOX_SLACK, high = 0.5 + BOX_SLACK;
+    double low = 0.5, high = 0.5;
     for (int k = 0; k < 2; k++) {
       const double one = by[k] * real_clamp(range[k][0], -1, 1), two = by[k] * real_clamp(range[k][1], -1, 1);
       low += real_min(one, two), high += real_max(one, two);
@@ -215,7 +213,7 @@ static bool square_range(double c, double d, double k, double off, double range[
   if (k < 0) c = -c, d = -d, k = -k;
   const double size = d * d + 4 * k * (fabs(c) + off), most = d * d - 4 * k * (c - off) + 16 * UNIT_ROUNDOFF * size;
   if (most < 0) return false;
-  const double root = sqrt(most) * (1 + 4 * UNIT_ROUNDOFF), low = (-d - root) / (2 * k), high = (root - d) / (2 * k);
+  const double root = sqrt(most), low = (-d - root) / (2 * k), high = (root - d) / (2 * k);
   if (low > -1) range[0] = low;
   if (high < 1) range[1] = high;
   return true;
@@ -230,9 +228,10 @@ static bool tangent_box(const double s_net[4][4], double s_error, const struct r
 {
   const struct series s = series(s_net), f = series(row->net);
   const double steep = hypot(s.u, s.v), e[2] = {s.u / steep, s.v / steep};
-  if (!(steep > s_error)) return true;
-  /* the nets' errors; roundings of sums of coefficients of at most 1, times up to 24 */
-  const double off_s = series_off(s_net, &s, false) + s_error + 64 * UNIT_ROUNDOFF;
+  if (!(steep > 0)) return true;
+  /* the nets' errors; roundings of sums of coefficients of at most 1, times up to 24, of e, and of places: formally 130 of s
+   * and 610 of f */
+  const double off_s = series_off(s_net, &s, false) + s_error + 256 * UNIT_ROUNDOFF;
   double range[2][2] = {{real_max(-1, (-s.value - off_s) / steep), real_min(1, (-s.value + off_s) / steep)}};
   const double middle = (range[0][0] + range[0][1]) / 2, half = (range[0][1] - range[0][0]) / 2; /* of the strip */
   if (half < 0) return false;
@@ -242,7 +241,7 @@ static bool tangent_box(const double s_net[4][4], double s_error, const struct r
   const double along2 = f.uu * e[0] * e[0] + 2 * f.uv * e[0] * e[1] + f.vv * e[1] * e[1];
   const double across2 = f.uu * e[1] * e[1] - 2 * f.uv * e[0] * e[1] + f.vv * e[0] * e[0];
   const double mixed = (f.vv - f.uu) * e[0] * e[1] + f.uv * (e[0] * e[0] - e[1] * e[1]);
-  const double off = series_off(row->net, &f, true) + row->error + 256 * UNIT_ROUNDOFF * most +
+  const double off = series_off(row->net, &f, true) + row->error + 1024 * UNIT_ROUNDOFF * most +
                      half * (fabs(along + along2 * middle) + fabs(mixed) + fabs(along2) / 2 * half);
   const double value = f.value + (along + along2 / 2 * middle) * middle;
   return square_range(value, across + mixed * middle, across2 / 2, off, range[1]) && cut_box(box, e, range);
