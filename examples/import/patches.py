@@ -6,8 +6,11 @@ import sys
 
 
 def read(path):
-    with open(path, encoding="latin-1") as file:
-        return file.read()
+    try:
+        with open(path, encoding="latin-1") as file:
+            return file.read()
+    except OSError as error:
+        fail(path, error.strerror)
 
 
 def fail(path, text):
@@ -43,5 +46,8 @@ def run(usage, nets_of):
     """The program: nets_of(path) reads the file that the command line names."""
     if len(sys.argv) != 2:
         sys.exit(usage)
-    nets = nets_of(sys.argv[1])
+    try:
+        nets = nets_of(sys.argv[1])
+    except (ValueError, IndexError) as error:
+        fail(sys.argv[1], f"not understood: {error}")
     write(nets or fail(sys.argv[1], "it has no bicubic Bezier patches"))
