@@ -497,7 +497,8 @@ TEST(zeros_next_to_tangencies_are_in_the_box)
 TEST(integers_become_floating_point_numbers_and_back)
 {
   enum { LONGEST = 8 };
-  limb a[LONGEST];
+  static fmpz_t product;
+  limb a[LONGEST], out[LONGEST];
   for (int n = 0; n < 10 * CASES; n++) {
     const int bits = 1 + below(below(2) ? 250 : 120), exponent = 200 - below(3000);
     const ulong zeros = below(2) ? 0 : (ulong)below(bits);
@@ -507,6 +508,9 @@ TEST(integers_become_floating_point_numbers_and_back)
     const int length = limbs_for((int)fmpz_bits(&z));
     fmpz_get_signed_ui_array(a, length, &z);
     if (!fmpz_is_zero(&z)) assert_int_equal(limbs_twos(a), fmpz_val2(&z));
+    const limb minus = -(limb)(1 + below(9));
+    limbs_product(out, LONGEST, &minus, 1, a, length), fmpz_set_signed_ui_array(product, out, LONGEST);
+    fmpz_addmul_ui(product, &z, -minus), assert_true(fmpz_is_zero(product));
     arf_set_fmpz(x, &z), arf_mul_2exp_si(x, x, exponent), arf_mul_2exp_si(y, x, -111);
     set_wide(net[0], limbs_wide(a, length, exponent, &known)), subtract(x, net[0]);
     assert_true(known ? arf_is_zero(x) : arf_sgn(x) > 0 && arf_cmpabs(x, y) <= 0); /* rounded down, if at all */
