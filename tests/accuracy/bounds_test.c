@@ -413,6 +413,22 @@ TEST(radii_are_large_enough)
   }
 }
 
+/* A root beside its piece, beyond its radius, is none of it. */
+TEST(roots_are_in_their_piece)
+{
+  struct piece_root root;
+  for (int n = 0; n < 8 * CASES; n++) {
+    for (int k = 0; k < 2; k++) {
+      const int64_t by = (int64_t)(below(2000) - 1000) * ((int64_t)1 << 50);
+      set_integers(k, RAMP, 59);
+      for (int c = 0; c < 16; c++) fmpz_add_si(&integer[k][c], &integer[k][c], by);
+    }
+    struct piece piece = make_piece();
+    const bool one = piece_root(&piece, false, &pool, &root) == PIECE_ROOT;
+    for (int k = 0; k < 2 && one; k++) assert_true(root.at[k] >= -root.radius && root.at[k] <= 1 + root.radius);
+  }
+}
+
 /* ---- turns and tangents ---- */
 
 /* Where w turns along a curve on which a (or b) is zero, the Jacobian is singular: it has not one sign everywhere. */
