@@ -88,8 +88,9 @@ void patch_point(struct language *language, const struct value *value)
     return;
   }
   open->stage = STAGE_BODY;
-  if (open->points < PATCH_POINTS)
-    value_to_vector(language, value, open->node.net->P[open->points / 4][open->points % 4]);
+  double more[3]; /* converted all the same: it may be a misspelt word */
+  const bool fits = open->points < PATCH_POINTS;
+  value_to_vector(language, value, fits ? open->node.net->P[open->points / 4][open->points % 4] : more);
   open->points++;
 }
 
