@@ -125,8 +125,8 @@ static int by_distance(const void *a, const void *b)
   return x->patch < y->patch ? -1 : x->patch > y->patch;
 }
 
-/* A region gets its share of the work that is left, or this much, so that one in which the ray lies leaves some for the
- * others: what a ray next to a tangency takes. */
+/* A region in which the ray lies leaves so much of the work for each of the others: what a ray next to a tangency
+ * takes. */
 enum { LEAST_SHARE = 512 * WORK_PIECE };
 
 /* Searches the case's regions, the first that the ray meets first. */
@@ -139,8 +139,8 @@ static void search(struct judge *j)
   for (size_t k = 0; k < j->asked->region_count; k++) /* those of one patch are next to each other */
     if (count == 0 || regions[count - 1].patch != regions[k].patch) regions[count++] = regions[k];
   for (size_t k = 0; k < count && regions[k].near <= j->limit; k++) {
-    const int64_t left = j->pool.work, fair = left / (int64_t)(count - k + known);
-    const int64_t share = fair > LEAST_SHARE ? fair : left < LEAST_SHARE ? left : LEAST_SHARE;
+    const int64_t left = j->pool.work, rest = left - (int64_t)(count - k - 1 + known) * LEAST_SHARE;
+    const int64_t share = rest > LEAST_SHARE ? rest : left < LEAST_SHARE ? left : LEAST_SHARE;
     j->pool.work = share;
     exact_search(j, regions[k].patch, regions[k].near);
     j->pool.work += left - share;
