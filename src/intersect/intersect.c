@@ -47,28 +47,14 @@ static const struct kernel *kernel_chosen(void)
   return NULL;
 }
 
-#if defined(PSCN_HAS_AVX512)
-/* Whether along each axis some rays go up and some down: few of them then come to one leaf. */
-static bool go_apart(size_t count, const struct ray rays[])
-{
-  for (int k = 0; k < 3; k++) {
-    size_t down = 0;
-    for (size_t n = 0; n < count; n++) down += rays[n].direction[k] < 0;
-    if (down == 0 || down == count) return false;
-  }
-  return true;
-}
-#endif
-
-/* The kernel that answers these rays. Wide registers work on empty lanes, too; and sets that round alike answer alike,
- * except with warm starts. */
-static const struct kernel *kernel_for(const struct tracer *tracer, size_t count, const struct ray rays[])
+/* The kernel that answers that many rays. Wide registers work on empty lanes, too; and sets that round alike answer
+ * alike, except with warm starts. */
+static const struct kernel *kernel_for(const struct tracer *tracer, size_t count)
 {
 #if defined(PSCN_HAS_AVX512) /* then AVX2 is there too: base/kernel.h */
-  if (tracer->kernel == &kernel_avx512 && (count <= FEW_RAYS || (!tracer->warm && go_apart(count, rays))))
-    return &kernel_avx2;
+  if (tracer->kernel == &kernel_avx512 && count <= FEW_RAYS) return &kernel_avx2;
 #endif
-  (void)count, (void)rays;
+  (void)count;
   return tracer->kernel;
 }
 
@@ -181,10 +167,10 @@ void tracer_stop_at(struct tracer *tracer, const atomic_int *stop) { tracer->sto
 /* The work on rays that are traced again alone is not counted, only their new answers. */
 static void trace(struct tracer *tracer, enum wanted wanted, size_t count, const struct ray rays[], void *answers)
 {
-  unsigned again = kernel_for(tracer, count, rays)->trace(tracer, wanted, count, rays, answers);
+  unsigned again = kernel_for(tracer, count)->trace(tracer, wanted, count, rays, answers);
   if (!again) return;
   const struct intersect_counts before = tracer->counts;
-  const struct kernel *kernel = kernel_for(tracer, 1, rays);
+  const struct kernel *kernel = kernel_for(tracer, 1);
   for (; again && !tracer_stopped(tracer); again &= again - 1) {
     const int k = __builtin_ctz(again);
     (void)kernel->trace(tracer, wanted, 1, &rays[k], wanted_at(wanted, answers, (size_t)k));
