@@ -176,18 +176,6 @@ static inline const struct edge_neighbour *model_neighbour(const struct model *m
   return &model->neighbours[4 * (size_t)patch + (size_t)border];
 }
 
-/* Whether a box of the hierarchy is that of an inner tree. */
-static inline bool model_is_tree(const struct model *model, uint32_t box)
-{
-  return box >= model->leaf_count + model->copy_count;
-}
-
-/* The inner tree that has this box. */
-static inline struct model_tree *model_inner(const struct model *model, uint32_t box)
-{
-  return &model->inner[box - model->leaf_count - model->copy_count];
-}
-
 /* The patch, made in `room` if patches are not kept. */
 struct model_patch *model_patch_at(const struct model *model, uint32_t index, struct patch_room *room);
 

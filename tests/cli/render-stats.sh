@@ -18,7 +18,7 @@ LC_ALL=C awk -F '[ :,]+' 'NR == FNR { gsub(",", "."); split($0, t, " "); process
   END { print (sum > 0 && sum < process + 0.01 ? "as much as the process" : sum " of " process) }' taken a.json
 # Standard error reports the same numbers: for a scene that uses all stages, and one where nothing is proven.
 for solver in 'aberth { split 1 }' 'laguerre { form paper }'; do
-  pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 40x30 --solver "$solver" --stats a.json 2>said
+  pscn render "$PSCN_SOURCE_DIR/scenes/wild.pscn" -o a.png --size 40x30 --solver "$solver" --stats a.json 2>said
   LC_ALL=C awk -F '[ :,"]+' '
     function grouped(n,    s) {
       for (s = n ""; match(s, /[0-9][0-9][0-9][0-9](,|$)/);) s = substr(s, 1, RSTART) "," substr(s, RSTART + 1)

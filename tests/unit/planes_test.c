@@ -69,7 +69,7 @@ static void rays_that_meet_what_it_stands_for_are_not_told_to_miss(void **state)
       const lane_mask here = p->on_axis[it.axis];
       it.line = &p->line[it.axis];
       slab += lanes_count(here & ~stage_slab(p, &it, here));
-      pieces += lanes_count(cover_proves(p, &it, 0, NULL, COVER_HALVINGS, here));
+      pieces += lanes_count(cover_proves(p, &it, COVER_HALVINGS, here));
     }
   }
   print_message("%u and %u of %d lost by slab and pieces\n", slab, pieces, CASES * LANES);

@@ -54,13 +54,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   packet_charge(p, open & COST_PLANES);
   entered[STAGE_PLANES] += lanes_count(open);
   if (patch->method->polish) open = stage_cover(p, it, open);
-  if (!lanes_any(open)) return;
-  packet_charge(p, open & COST_RESULTANT);
-  entered[STAGE_RESULTANT] += lanes_count(open);
-  open = stage_resultant(it, open);
-  if (!lanes_any(open)) return;
-  entered[STAGE_ROOTS] += lanes_count(open);
-  open = patch->method->polish ? stage_all_roots(p, it, open) : stage_bare_roots(p, it, open);
+  if (lanes_any(open)) open = stage_resultant(p, it, open);
   if (lanes_any(open)) packet_postpone(p, it, open);
 }
 

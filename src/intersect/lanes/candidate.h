@@ -9,6 +9,9 @@
 #ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
 
+#include <string.h>
+
+#include "geometry/patch.h"
 #include "intersect/lanes/packet.h"
 #include "intersect/prepare/leaf.h"
 
@@ -46,14 +49,23 @@ struct leaf_root {
   lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters; none of these are set for any hit */
 };
 
+/* The most roots near [0,1] of a resultant that are tried on a lane: of 18 roots, more are hardly ever real and in
+ * [0,1]; and the most further ones that pieces seek. Choices of speed. */
+enum { TRIED_ROOTS = 8, MORE_ROOTS = 3 };
+
+/* The roots of a leaf that are known: the k-th of every lane. */
+struct leaf_roots {
+  int count;
+  struct leaf_root root[TRIED_ROOTS + MORE_ROOTS];
+  lane_mask proven[TRIED_ROOTS + MORE_ROOTS]; /* a root, and none of those before it */
+};
+
 /* newton.c: iterates on the lanes of `active`, and tests the result. The start values start[0] and start[1] are those
  * of u - 1/2 and v - 1/2. The last step leaves the root right to the last places of its coordinates. */
 void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
                   struct leaf_root *out);
 
 /* ---- the stages ---- */
-
-enum { RESULTANT_MAX_DEGREE = 18 };
 
 /* What the stages pass on to later ones, in the order in which they set it. */
 struct candidate {
@@ -63,17 +75,8 @@ struct candidate {
   int64_t number;                  /* the leaf's, in its model */
   int axis;
   const struct line *line; /* the packet's, for that axis */
-  /* stage_bilinear: */
-  struct leaf_root first; /* the first root found; meaningful only where it exists */
-  /* stage_resultant: */
-  struct leaf_form form;
-  lanes a[16], b[16]; /* nets of the planes' polynomials of that form, a[4 * i + j] */
-  lanes form_error;   /* of their coefficients */
-  lanes alpha, beta;  /* the largest of either */
-  int degree;         /* of r, without its exact roots at the ends */
-  lanes c_store[RESULTANT_MAX_DEGREE + 1];
-  const lanes *c;   /* c[0..degree] */
-  lanes variations; /* upper bound on the sign variations of c; -1: not counted */
+  /* stage_bilinear sets the first one, of which nothing has a meaning except where it exists; stage_resultant, all: */
+  struct leaf_roots known;
 };
 
 /* candidate.c: tests the slab across the leaf to the last places. Closes lanes where it lies before the ray's start,
@@ -91,15 +94,9 @@ lane_mask stage_leaves(const struct packet *p, const struct candidate *it, lane_
  * besides that of stage_bilinear and those that are found in the pieces. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
-/* resultant.c: sets the form and, with polish, Bezout's resultant r of a and b in Bernstein form. Closes lanes where
- * that has no sign variation. */
-lane_mask stage_resultant(struct candidate *it, lane_mask open);
-
-/* resultant.c: finds the roots of r by the scene's method. Closes lanes where they are proven to be all. */
-lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
-
-/* resultant.c: without polish the roots of r are the answer, proven or not. */
-lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
+/* resultant.c: finds the roots of Bezout's resultant of a and b by the scene's method. Closes lanes where it has no sign
+ * variation, where the roots are proven to be all, and all lanes without polish. */
+lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open);
 
 /* explain.c: called before and after a candidate, if the tracer is to explain (explain.h); `blind`: it was postponed at
  * once. */
@@ -115,8 +112,24 @@ void packet_postpone(struct packet *p, const struct candidate *it, lane_mask ope
 /* nearest.c: offers proven roots of several lanes. */
 void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits);
 
-/* nearest.c: offers points in the leaf of which nothing is proven. */
-void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits);
+/* Offers the known roots on the lanes of `where`. */
+LANES_INLINE void offer_known(struct packet *p, const struct candidate *it, lane_mask where)
+{
+  const struct leaf_roots *known = &it->known;
+  for (int k = 0; k < known->count; k++)
+    offer_root(p, it, &known->root[k], where & known->proven[k] & inside(&known->root[k].at));
+}
+
+/* nearest.c: offers a point in the leaf of which nothing is proven. */
+void offer_unproven(struct packet *p, const struct candidate *it, double u, double v, unsigned lane);
+
+/* x_k at a point of the leaf. */
+static inline double leaf_depth(const struct candidate *it, double u, double v)
+{
+  double x[4][4];
+  memcpy(x, it->leaf->x[it->axis], sizeof x);
+  return patch_evaluate(x, u, v).value;
+}
 
 /* resultant.c: returns the real root of r0 + r1 s + r2 s^2 nearest to 0, or the real part of a complex pair, by the
  * scene's method. Removes lanes from *open where it finds none. */
@@ -125,16 +138,9 @@ lanes method_quadratic_root(struct packet *p, const struct candidate *it, const 
 /* The most halvings of a leaf. A choice of speed. */
 enum { COVER_HALVINGS = 24 };
 
-/* A proven root of every lane, in the order in which they were found. */
-struct known_root {
-  const struct newton_root *at;
-  lane_mask proven;
-};
-
-/* cover.c: the lanes of `open` on which all of the leaf's roots between the ends of the ray are known: they are among
- * `roots`, or are found and offered. For any hit, those found on other lanes are offered, too. */
-lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
-                       int halvings, lane_mask open);
+/* cover.c: the lanes of `open` on which all of the leaf's roots are known: they are among it->known, or are found and
+ * offered. For any hit, those found on other lanes are offered, too. */
+lane_mask cover_proves(struct packet *p, struct candidate *it, int halvings, lane_mask open);
 
 /* A patch lies within |w| < 1 in its frame; a ray is not examined beyond this. */
 #define FRAME_END 2.0

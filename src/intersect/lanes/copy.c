@@ -53,13 +53,6 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
                    8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
 }
 
-/* Prefetches the copies' own patches, on which the last step will be taken. */
-static void fetch_patches(const struct model *model, lane_mask patch, unsigned taken)
-{
-  for (; model->patches && taken; taken &= taken - 1)
-    fetch(&model->patches[patch[__builtin_ctz(taken)]], sizeof *model->patches);
-}
-
 void packet_leave(struct packet *inner)
 {
   struct packet *outer = inner->outer;
@@ -81,6 +74,5 @@ void packet_leave(struct packet *inner)
   best_take(&outer->best, taken, uv, radius, t, found->patch, found->leaf);
   outer->t_far = lanes_select(taken, far, outer->t_far);
   if (outer->any) outer->live &= ~taken;
-  else fetch_patches(outer->model, found->patch, lanes_bits(taken));
   outer->moved = true;
 }

@@ -40,19 +40,12 @@ struct piece {
   int halvings;
 };
 
-/* The most further roots of a leaf. A choice of speed. */
-enum { MORE_ROOTS = 3 };
-
 /* What all pieces of one ray on a leaf share. */
 struct piece_ray {
   const struct leaf *leaf;
-  int lane, count;
-  const struct known_root *roots;
-  struct leaf_root more[MORE_ROOTS]; /* further roots that were found */
-  int more_count, splits;
+  struct leaf_roots *known; /* with those that are found on the way */
+  int lane, most, splits;   /* `most` roots, no more */
   double size[2], error[2]; /* of the coefficients of either polynomial: a bound, and their errors */
-  struct net depth;         /* x_k of the leaf, k being the ray's axis */
-  double from, to;          /* the ray seeks roots between these x_k */
 };
 
 /* The largest absolute value of a coefficient. */
@@ -123,25 +116,8 @@ struct aimed {
   double slope; /* of either by its parameter of the piece, about */
 };
 
-/* The weights of a cubic's coefficients. */
-LANES_INLINE row weights_at(double t)
-{
-  const double s = 1 - t;
-  return (row){s * s * s, 3 * (s * s * t), 3 * (s * t * t), t * t * t};
-}
-
-/* Whether the piece may be where the ray seeks roots. */
-LANES_INLINE bool piece_in_range(const struct piece_ray *ray, const struct piece *piece)
-{
-  const double half_u = 0.5 * piece->size_u, half_v = 0.5 * piece->size_v, *first = ray->leaf->first;
-  const row *x = ray->depth.c, u = weights_at(piece->u + half_u), v = weights_at(piece->v + half_v);
-  const row sums = (u[0] * x[0] + u[1] * x[1] + (u[2] * x[2] + u[3] * x[3])) * v;
-  const double middle = (sums[0] + sums[1]) + (sums[2] + sums[3]), reach = first[0] * half_u + first[1] * half_v;
-  return middle + reach >= ray->from && middle - reach <= ray->to;
-}
-
-/* Whether the piece has no root between the ends of the ray: one of the pair, or of two combinations, which aim along
- * the piece's parameters, keeps its sign on its net. If not, the combinations are set. */
+/* Whether the piece has no root: one of the pair, or of two combinations, which aim along the piece's parameters, keeps
+ * its sign on its net. If not, the combinations are set. */
 LANES_INLINE bool piece_exclude(const struct piece_ray *ray, const struct piece *piece, struct aimed *out)
 {
   double error[2], du[2], dv[2];
@@ -160,7 +136,7 @@ LANES_INLINE bool piece_exclude(const struct piece_ray *ray, const struct piece 
   if (!net_changes(&out->along[0], out->error[0])) return true;
   net_combine(piece->f, -sense * du[1], sense * du[0], &out->along[1]);
   out->error[1] = error[0] * fabs(du[1]) + error[1] * fabs(du[0]);
-  return !net_changes(&out->along[1], out->error[1]) || !piece_in_range(ray, piece);
+  return !net_changes(&out->along[1], out->error[1]);
 }
 
 /* ---- unique ---- */
@@ -202,10 +178,9 @@ LANES_INLINE bool root_within(const struct newton_root *root, int lane, const st
 /* Whether a proven root of the ray is in the piece. */
 LANES_INLINE bool piece_root(const struct piece_ray *ray, const struct piece *piece)
 {
-  for (int k = 0; k < ray->count; k++)
-    if (ray->roots[k].proven[ray->lane] && root_within(ray->roots[k].at, ray->lane, piece)) return true;
-  for (int k = 0; k < ray->more_count; k++)
-    if (root_within(&ray->more[k].at, ray->lane, piece)) return true;
+  const struct leaf_roots *known = ray->known;
+  for (int k = 0; k < known->count; k++)
+    if (known->proven[k][ray->lane] && root_within(&known->root[k].at, ray->lane, piece)) return true;
   return false;
 }
 
@@ -258,7 +233,8 @@ static void piece_seek(const struct packet *p, const struct candidate *it, const
                        const struct aimed *aimed, struct piece_ray *ray)
 {
   double at[2];
-  if (piece->halvings < SEEK_HALVINGS || ray->more_count == MORE_ROOTS) return;
+  struct leaf_roots *known = ray->known;
+  if (piece->halvings < SEEK_HALVINGS || known->count == ray->most) return;
   for (int k = 0; k < 2; k++) {
     const double value = net_middle(&aimed->along[k]);
     if (!(fabs(value) <= 0.5 * aimed->slope)) return;
@@ -268,12 +244,12 @@ static void piece_seek(const struct packet *p, const struct candidate *it, const
   const lanes start[2] = {lanes_all(piece->u + at[0] * piece->size_u - 0.5),
                           lanes_all(piece->v + at[1] * piece->size_v - 0.5)};
   const lane_mask here = lanes_mask(1u << ray->lane);
-  struct leaf_root *root = &ray->more[ray->more_count];
+  struct leaf_root *root = &known->root[known->count];
   newton_solve(p, it->leaf, it->axis, start, here, root);
   lane_mask further = here & root->at.exists;
-  for (int k = 0; k < ray->count; k++) further &= ~(ray->roots[k].proven & roots_meet(ray->roots[k].at, &root->at));
-  for (int k = 0; k < ray->more_count; k++) further &= ~roots_meet(&ray->more[k].at, &root->at);
-  ray->more_count += lanes_any(further);
+  for (int k = 0; k < known->count; k++) further &= ~(known->proven[k] & roots_meet(&known->root[k].at, &root->at));
+  known->proven[known->count] = further;
+  known->count += lanes_any(further);
   ray->splits++; /* it takes as long */
 }
 
@@ -281,7 +257,7 @@ static void piece_seek(const struct packet *p, const struct candidate *it, const
 static bool cover(const struct packet *p, const struct candidate *it, struct piece_ray *ray,
                   struct piece stack[COVER_HALVINGS + 2], int halvings)
 {
-  ray->more_count = ray->splits = 0;
+  ray->splits = 0;
   for (int top = 1; top > 0;) {
     struct piece *piece = &stack[--top];
     struct aimed aimed;
@@ -296,56 +272,50 @@ static bool cover(const struct packet *p, const struct candidate *it, struct pie
 }
 
 /* The net of a plane's polynomial; each coefficient is off by line->error at most. */
-LANES_INLINE void plane_net(const struct candidate *it, const struct piece_ray *ray, int number, struct net *out)
+LANES_INLINE void plane_net(const struct candidate *it, int lane, int number, struct net *out)
 {
   const struct line *line = it->line;
-  const double moment = line->moment[number][ray->lane], slope = line->slope[number][ray->lane];
-  const double *x = it->leaf->x[(it->axis + 1 + number) % 3];
-  for (int n = 0; n < 4; n++) {
-    row along;
-    memcpy(&along, x + 4 * n, sizeof along);
-    out->c[n] = (along - moment) - slope * ray->depth.c[n];
-  }
+  const double moment = line->moment[number][lane], slope = line->slope[number][lane];
+  row x[4], depth[4]; /* x_i or x_j, and x_k */
+  memcpy(x, it->leaf->x[(it->axis + 1 + number) % 3], sizeof x), memcpy(depth, it->leaf->x[it->axis], sizeof depth);
+  for (int n = 0; n < 4; n++) out->c[n] = (x[n] - moment) - slope * depth[n];
 }
 
-lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
-                       int halvings, lane_mask open)
+lane_mask cover_proves(struct packet *p, struct candidate *it, int halvings, lane_mask open)
 {
+  struct leaf_roots *known = &it->known;
+  const int count = known->count;
   struct piece stack[COVER_HALVINGS + 2], *leaf = &stack[0];
   struct piece_ray ray;
-  lanes from, to, off;
   int pole = 0; /* the first border that is one */
   while (pole < 4 && !leaf_border_is_point(it->patch, it->leaf, pole)) pole++;
-  /* up to t_max and not the nearest hit so far, or answers would depend on the way through the hierarchy */
-  ray_ends(p, it, p->t_max, &from, &to, &off);
-  off += 2 * it->line->error;
-  ray.leaf = it->leaf, ray.count = count, ray.roots = roots;
-  memcpy(&ray.depth, it->leaf->x[it->axis], sizeof ray.depth);
+  ray.leaf = it->leaf, ray.known = known, ray.most = count + MORE_ROOTS;
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const int lane = ray.lane = __builtin_ctz(bits);
     const lane_mask here = lanes_mask(bits & -bits);
     leaf->u = leaf->v = 0, leaf->size_u = leaf->size_v = 1, leaf->halvings = 0;
     for (int k = 0; k < 2; k++) {
-      plane_net(it, &ray, k, &leaf->f[k]);
+      plane_net(it, lane, k, &leaf->f[k]);
       ray.size[k] = net_size(&leaf->f[k]), ray.error[k] = it->line->error[lane];
     }
     if (pole < 4) piece_divide(&ray, pole, leaf);
-    ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
     const bool covered = cover(p, it, &ray, stack, halvings);
     p->postponed->left[lane] -= COST_BOX * (1 + 2 * ray.splits);
     if (!covered) open &= ~here;
-    if (!covered && !p->any) continue;
-    for (int k = 0; k < ray.more_count; k++) offer_root(p, it, &ray.more[k], here & inside(&ray.more[k].at));
+    for (int k = count; k < known->count && (covered || p->any); k++)
+      offer_root(p, it, &known->root[k], here & inside(&known->root[k].at));
+    known->count = count;
   }
   return open;
 }
 
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
 {
-  if (it->patch->lanes != SOLVER_LANES_SIGNS) return open & ~cover_proves(p, it, 0, NULL, MISS_HALVINGS, open);
-  const struct newton_root *r = &it->first.at;
-  const struct known_root known = {r, open & r->exists};
-  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_HALVINGS, open);
-  offer_root(p, it, &it->first, (p->any ? known.proven : covered & known.proven) & inside(r));
+  const bool all = it->patch->lanes == SOLVER_LANES_SIGNS;
+  struct leaf_roots *known = &it->known;
+  known->count = all;
+  if (all) known->proven[0] = open & known->root[0].at.exists;
+  const lane_mask covered = cover_proves(p, it, all ? COVER_HALVINGS : MISS_HALVINGS, open);
+  offer_known(p, it, p->any ? open : covered);
   return open & ~covered & p->live;
 }

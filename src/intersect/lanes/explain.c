@@ -7,9 +7,7 @@
 
 #include <limits.h>
 #include <math.h>
-#include <string.h>
 
-#include "geometry/patch.h"
 #include "intersect/lanes/candidate.h"
 #include "intersect/method.h"
 
@@ -28,14 +26,11 @@ void explain_before(const struct packet *p, const struct candidate *it)
 static void place_points(const struct candidate *it, double shift, struct explained_candidate *story)
 {
   const struct line *line = it->line;
-  double depths[4][4];
-  memcpy(depths, it->leaf->x[it->axis], sizeof depths);
   for (int k = 0; k < story->found.roots.count; k++) {
     if (story->found.fate[k] != ROOT_OFFERED) continue;
     const double kept = story->found.roots.root[k].re, other = story->found.other[k];
     const double u = story->v_kept ? other : kept, v = story->v_kept ? kept : other;
-    const double depth = patch_evaluate(depths, u, v).value;
-    story->t[k] = shift + ((depth + line->start[1][0]) + line->start[0][0]) * line->to_t[0];
+    story->t[k] = shift + ((leaf_depth(it, u, v) + line->start[1][0]) + line->start[0][0]) * line->to_t[0];
   }
 }
 

@@ -184,27 +184,11 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   return taken;
 }
 
-LANES_INLINE void weights_at(lanes t, lanes w[4])
+void offer_unproven(struct packet *p, const struct candidate *it, double u, double v, unsigned lane)
 {
-  const lanes s = 1 - t, ss = s * s, tt = t * t, st = s * t;
-  w[0] = ss * s, w[1] = 3 * (ss * t), w[2] = 3 * (st * t), w[3] = tt * t;
-}
-
-static lanes plane_depth(const struct candidate *it, lanes u, lanes v)
-{
-  lanes wu[4], wv[4], w = {0};
-  weights_at(u, wu), weights_at(v, wv);
-  const double *x = it->leaf->x[it->axis];
-  for (int i = 0; i < 4; i++)
-    w += wu[i] * (x[4 * i] * wv[0] + x[4 * i + 1] * wv[1] + x[4 * i + 2] * wv[2] + x[4 * i + 3] * wv[3]);
-  return w;
-}
-
-void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits)
-{
-  const struct newton_root r = {.u = u, .v = v};
-  const lanes w = plane_depth(it, u, v), at = depth_to_t(it->line, w), error = root_t_error(p, it, &r, w, at);
-  const lane_mask behind = at > p->t_min + error, none = {0};
+  const struct newton_root r = {.u = lanes_all(u), .v = lanes_all(v)};
+  const lanes w = lanes_all(leaf_depth(it, u, v)), at = depth_to_t(it->line, w), error = root_t_error(p, it, &r, w, at);
+  const lane_mask behind = at > p->t_min + error, hits = lanes_mask(1u << lane), none = {0};
   p->best.doubt |= hits & ~behind & ~(at < p->t_min - error);
   const lane_mask taken = hits & behind & (at < p->t_max) &
                           best_after(&p->best, at, it->leaf->patch + none, it->number + none);

@@ -266,7 +266,7 @@ LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, la
 
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask active)
 {
-  struct leaf_root *root = &it->first;
+  struct leaf_root *root = &it->known.root[0];
   lanes start[2];
   lane_mask tried = active;
   bilinear_root(p, it, &tried, start);
@@ -292,13 +292,14 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask activ
 lane_mask stage_leaves(const struct packet *p, const struct candidate *it, lane_mask open)
 {
   const struct leaf *leaf = it->leaf;
-  const struct newton_root *r = &it->first.at;
+  const struct leaf_root *root = &it->known.root[0];
+  const struct newton_root *r = &root->at;
   const struct line *line = it->line;
   const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
   lanes from, to, off, n[3], f[16];
   ray_ends(p, it, p->t_max, &from, &to, &off);
   const lane_mask up = p->direction[k] > 0;
-  const lanes start = lanes_select(up, from, to), past = lanes_select(up, start - it->first.w, it->first.w - start);
+  const lanes start = lanes_select(up, from, to), past = lanes_select(up, start - root->w, root->w - start);
   open &= r->exists & (past > 0) & (past <= STARTS_NEAR) & (lanes_abs(r->u - 0.5) <= 0.5) &
           (lanes_abs(r->v - 0.5) <= 0.5);
   if (!lanes_any(open)) return open;

@@ -17,68 +17,69 @@
 
 /* ---- the resultant ---- */
 
-static void set_form(struct candidate *it)
+struct leaf_resultant {
+  struct leaf_form form;
+  lanes a[16], b[16]; /* nets of the planes' polynomials of that form, a[4 * i + j] */
+  lanes error;        /* of their coefficients */
+  lanes alpha, beta;  /* the largest of either */
+  /* with polish: */
+  int degree; /* without exact roots at the ends */
+  lanes c_store[2 * 3 * 3 + 1];
+  const lanes *c;   /* c[0..degree] */
+  lanes variations; /* upper bound on the sign variations of c */
+};
+
+static void set_form(const struct candidate *it, struct leaf_resultant *r)
 {
-  const struct leaf_form *form = &it->form;
-  leaf_form_make(it->patch, it->leaf, &it->form);
-  it->form_error = it->line->error;
-  it->alpha = it->beta = lanes_all(0);
+  const struct leaf_form *form = &r->form;
+  leaf_form_make(it->patch, it->leaf, &r->form);
+  r->error = it->line->error;
+  r->alpha = r->beta = lanes_all(0);
   for (int i = 0; i <= form->kept_degree; i++) {
     for (int j = 0; j <= form->eliminated_degree; j++) {
       const int n = 4 * i + j;
-      plane_values(it->line, it->axis, form->own ? it->leaf->x : form->x, n, &it->a[n], &it->b[n]);
-      it->alpha = lanes_max(it->alpha, lanes_abs(it->a[n])), it->beta = lanes_max(it->beta, lanes_abs(it->b[n]));
+      plane_values(it->line, it->axis, form->own ? it->leaf->x : form->x, n, &r->a[n], &r->b[n]);
+      r->alpha = lanes_max(r->alpha, lanes_abs(r->a[n])), r->beta = lanes_max(r->beta, lanes_abs(r->b[n]));
     }
   }
   if (form->own) return;
   /* Where the ray meets the leaf, the form's polynomials are off by their excess, twice that for a plane of slope 1. If
    * each is moved by a constant, which moves all its coefficients alike, they have their common root there. So the
    * excess counts as an error of coefficients. */
-  it->form_error = it->line->error * form->size + 2 * form->excess;
+  r->error = it->line->error * form->size + 2 * form->excess;
 }
 
-/* Sets r and an upper bound on the sign variations of its coefficients: one of uncertain sign gets the sign that makes
+/* Sets the coefficients and an upper bound on their sign variations: one of uncertain sign gets the sign that makes
  * more variations. Returns the lanes that may meet the leaf. */
-static lane_mask resultant_varies(struct candidate *it, lane_mask active)
+static lane_mask resultant_varies(struct leaf_resultant *r, lane_mask active)
 {
-  const int m = it->form.kept_degree, n = it->form.eliminated_degree;
-  if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, it->a, it->b, it->c_store);
-  else bezout_lanes_resultant(m, n, it->a, it->b, it->c_store);
-  it->c = it->c_store + it->form.zeros[0];
-  it->degree = 2 * m * n - it->form.zeros[0] - it->form.zeros[1];
-  const lanes alpha = it->alpha + it->form_error, beta = it->beta + it->form_error;
+  const int m = r->form.kept_degree, n = r->form.eliminated_degree;
+  if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, r->a, r->b, r->c_store);
+  else bezout_lanes_resultant(m, n, r->a, r->b, r->c_store);
+  r->c = r->c_store + r->form.zeros[0];
+  r->degree = 2 * m * n - r->form.zeros[0] - r->form.zeros[1];
+  const lanes alpha = r->alpha + r->error, beta = r->beta + r->error;
   const lanes product = alpha * beta, power = n == 1   ? product
                                               : n == 2 ? product * product
                                                        : product * product * product;
-  const lanes bound = RESULTANT_ERROR(n, power, alpha, beta, it->form_error);
+  const lanes bound = RESULTANT_ERROR(n, power, alpha, beta, r->error);
   lanes last = {0}, variations = {0};
   const int full = 2 * m * n;
   double choose = 1;
-  for (int k = 0; k < it->form.zeros[0]; k++) choose = choose * (full - k) / (k + 1);
-  for (int k = 0; k <= it->degree; k++) {
-    const lanes c = it->c[k];
+  for (int k = 0; k < r->form.zeros[0]; k++) choose = choose * (full - k) / (k + 1);
+  for (int k = 0; k <= r->degree; k++) {
+    const lanes c = r->c[k];
     const lane_mask either = ~(lanes_abs(c) > choose * bound);
     variations += lanes_select(either | (c * last < 0), lanes_all(1), lanes_all(0));
     last = lanes_select(either, -last, lanes_select(c > 0, lanes_all(1), lanes_all(-1)));
-    const int at = k + it->form.zeros[0];
+    const int at = k + r->form.zeros[0];
     choose = choose * (full - at) / (at + 1);
   }
-  it->variations = variations;
-  return active & (it->variations != 0);
-}
-
-lane_mask stage_resultant(struct candidate *it, lane_mask open)
-{
-  set_form(it);
-  it->variations = lanes_all(-1);
-  return it->patch->method->polish ? resultant_varies(it, open) : open;
+  r->variations = variations;
+  return active & (r->variations != 0);
 }
 
 /* ---- start values ---- */
-
-/* The most roots near [0,1] that are tried on a lane: of 18 roots, more are hardly ever real and in [0,1]. A choice of
- * speed. */
-enum { TRIED_ROOTS = 8 };
 
 /* Start values in leaf parameters: the k-th of every lane that has so many. */
 struct root_starts {
@@ -90,14 +91,14 @@ struct root_starts {
 enum { RESULTANT_NEWTON_STEPS = 3 };
 
 /* The kept parameter where the control polygon of r crosses zero last, improved by Newton's method on r. */
-static lanes resultant_root(const struct candidate *it)
+static lanes resultant_root(const struct leaf_resultant *r)
 {
-  const int d = it->degree;
-  lanes at = lanes_all(0.5), before = it->c[0];
+  const int d = r->degree;
+  lanes at = lanes_all(0.5), before = r->c[0];
   double choose = 1;
   for (int k = 1; k <= d; k++) {
     choose = choose * (d - k + 1) / k;
-    const lanes here = it->c[k] * (1 / choose);
+    const lanes here = r->c[k] * (1 / choose);
     at = lanes_select(before * here < 0, (k - 1 + before / (before - here)) / d, at);
     before = here;
   }
@@ -110,7 +111,7 @@ static lanes resultant_root(const struct candidate *it)
     lanes value = {0}, slope = {0};
     for (int k = d; k >= 0; k--) {
       slope = slope * x + value;
-      value = value * x + lanes_select(back, it->c[d - k], it->c[k]);
+      value = value * x + lanes_select(back, r->c[d - k], r->c[k]);
     }
     x -= value / slope;
   }
@@ -119,16 +120,16 @@ static lanes resultant_root(const struct candidate *it)
 }
 
 /* The eliminated parameter at a root of r. */
-static lanes resultant_eliminated(const struct candidate *it, lanes kept)
+static lanes resultant_eliminated(const struct leaf_resultant *r, lanes kept)
 {
-  const int m = it->form.kept_degree, n = it->form.eliminated_degree;
+  const int m = r->form.kept_degree, n = r->form.eliminated_degree;
   const lanes s = 1 - kept;
   lanes w[4], p[4] = {{0}}, q[4] = {{0}};
   if (m == 1) w[0] = s, w[1] = kept;
   else if (m == 2) w[0] = s * s, w[1] = 2 * (s * kept), w[2] = kept * kept;
   else w[0] = s * s * s, w[1] = 3 * (s * s * kept), w[2] = 3 * (s * kept * kept), w[3] = kept * kept * kept;
   for (int i = 0; i <= m; i++)
-    for (int j = 0; j <= n; j++) p[j] += w[i] * it->a[4 * i + j], q[j] += w[i] * it->b[4 * i + j];
+    for (int j = 0; j <= n; j++) p[j] += w[i] * r->a[4 * i + j], q[j] += w[i] * r->b[4 * i + j];
   lanes num[2], den[2], better;
   bezout_lanes_null_vector(n, p, q, num, den, &better);
   const lane_mask first = better > 0;
@@ -139,10 +140,10 @@ static lanes resultant_eliminated(const struct candidate *it, lanes kept)
 LANES_INLINE lanes start_within(lanes t) { return lanes_clamp(lanes_select(t == t, t, lanes_all(0.5)), 0, 1); }
 
 /* Sets the k-th start values from a value of the kept parameter, near a root of r. */
-static void starts_set(const struct candidate *it, int k, lanes kept, struct root_starts *out)
+static void starts_set(const struct leaf_resultant *r, int k, lanes kept, struct root_starts *out)
 {
-  const lanes at = start_within(kept), other = start_within(resultant_eliminated(it, at));
-  out->u[k] = it->form.v_kept ? other : at, out->v[k] = it->form.v_kept ? at : other;
+  const lanes at = start_within(kept), other = start_within(resultant_eliminated(r, at));
+  out->u[k] = r->form.v_kept ? other : at, out->v[k] = r->form.v_kept ? at : other;
 }
 
 /* ---- roots on one ray after the other ---- */
@@ -153,17 +154,18 @@ static void starts_set(const struct candidate *it, int k, lanes kept, struct roo
 
 /* Finds the roots on one lane, with as many steps as the budget has left. A step of one root has some products for each
  * coefficient of r. */
-static void lane_solve(const struct packet *p, const struct candidate *it, unsigned lane, struct method_roots *out)
+static void lane_solve(const struct packet *p, const struct candidate *it, const struct leaf_resultant *r,
+                       unsigned lane, struct method_roots *out)
 {
   const struct method *method = it->patch->method;
-  struct method_planes planes = {.form = &it->form};
+  struct method_planes planes = {.form = &r->form};
   const int64_t left = p->postponed->left[lane];
   out->count = 0;
   if (left < 0 || tracer_stopped(p->tracer)) return;
-  for (int i = 0; i <= it->form.kept_degree; i++)
-    for (int j = 0; j <= it->form.eliminated_degree; j++)
-      planes.a[4 * i + j] = it->a[4 * i + j][lane], planes.b[4 * i + j] = it->b[4 * i + j][lane];
-  const double degree = 2 * it->form.kept_degree * it->form.eliminated_degree,
+  for (int i = 0; i <= r->form.kept_degree; i++)
+    for (int j = 0; j <= r->form.eliminated_degree; j++)
+      planes.a[4 * i + j] = r->a[4 * i + j][lane], planes.b[4 * i + j] = r->b[4 * i + j][lane];
+  const double degree = 2 * r->form.kept_degree * r->form.eliminated_degree,
                step = degree * (method->polish ? 1.0 : BARE_COST) / PRODUCTS_A_UNIT; /* its cost */
   const double most = (double)left / (step * degree);                                /* of each root */
   struct explainer *explainer = p->tracer->explainer;
@@ -177,12 +179,13 @@ static void lane_solve(const struct packet *p, const struct candidate *it, unsig
 }
 
 /* Start values from the roots of r by a method that does not run on lanes. */
-static void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out)
+static void method_starts(const struct packet *p, const struct candidate *it, const struct leaf_resultant *r,
+                          lane_mask open, struct root_starts *out)
 {
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     struct method_roots roots;
-    lane_solve(p, it, lane, &roots);
+    lane_solve(p, it, r, lane, &roots);
     const int count = roots.count < TRIED_ROOTS ? roots.count : TRIED_ROOTS;
     for (int k = 0; k < count; k++) out->u[k][lane] = roots.u[k], out->v[k][lane] = roots.v[k], out->has[k][lane] = -1;
     out->count = out->count > count ? out->count : count;
@@ -216,7 +219,7 @@ static void all_roots_keep(const struct roots_lanes *a, lane_mask done, struct s
 }
 
 /* Collects the roots near [0,1], lane by lane. */
-static void all_roots_near(const struct candidate *it, const struct roots_lanes *a, lane_mask done,
+static void all_roots_near(const struct leaf_resultant *r, const struct roots_lanes *a, lane_mask done,
                            struct root_starts *out)
 {
   int counts[LANES] = {0};
@@ -232,7 +235,7 @@ static void all_roots_near(const struct candidate *it, const struct roots_lanes 
       out->count = out->count > counts[lane] ? out->count : counts[lane];
     }
   }
-  for (int k = 0; k < out->count; k++) starts_set(it, k, kept[k], out);
+  for (int k = 0; k < out->count; k++) starts_set(r, k, kept[k], out);
 }
 
 /* Finds the roots of the polynomial that is set. Returns the lanes of `active` where the method succeeds: see
@@ -265,114 +268,88 @@ lanes method_quadratic_root(struct packet *p, const struct candidate *it, const 
 }
 
 /* Finds roots by a method for lanes. */
-static void all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct root_starts *out)
+static void all_roots_find(struct packet *p, const struct candidate *it, const struct leaf_resultant *r,
+                           lane_mask active, struct root_starts *out)
 {
   struct roots_lanes a;
-  if (it->degree < 1) return;
-  const lane_mask able = roots_lanes_set(&a, it->degree, it->c);
-  all_roots_near(it, &a, all_roots_solve(p, it, active & able, it->variations, &a), out);
+  if (r->degree < 1) return;
+  const lane_mask able = roots_lanes_set(&a, r->degree, r->c);
+  all_roots_near(r, &a, all_roots_solve(p, it, active & able, r->variations, &a), out);
 }
 
 /* ---- what is proven of them ---- */
 
-/* The roots tried: the k-th of every lane. */
-struct all_roots {
-  int count;
-  struct leaf_root root[TRIED_ROOTS];
-  lane_mask proven[TRIED_ROOTS]; /* a root, and none of those before it */
-};
-
-/* Refines the roots by Newton's method, and proves them. Returns the lanes that are decided: one root is alone in the
- * leaf, or there are as many roots as r has sign variations. */
-static lane_mask all_roots_prove(const struct packet *p, const struct candidate *it, const struct root_starts *starts,
-                                 struct all_roots *all)
+/* Refines the roots by Newton's method, and proves them. Returns the lanes where one of them is alone in the leaf. */
+static lane_mask all_roots_prove(const struct packet *p, struct candidate *it, const struct root_starts *starts)
 {
-  const bool v_kept = it->form.v_kept;
+  struct leaf_roots *known = &it->known;
   lane_mask alone = {0};
-  lanes found = {0}, within = {0};
-  all->count = starts->count;
+  known->count = starts->count;
   for (int k = 0; k < starts->count; k++) {
-    struct newton_root *r = &all->root[k].at;
-    lane_mask *proven = &all->proven[k];
-    *proven = (lane_mask){0};
+    const struct newton_root *r = &known->root[k].at;
     const lane_mask open = starts->has[k] & ~alone;
-    *r = (struct newton_root){.exists = {0}};
+    known->proven[k] = (lane_mask){0};
     if (!lanes_any(open)) continue;
     const lanes start[2] = {starts->u[k] - 0.5, starts->v[k] - 0.5};
-    newton_solve(p, it->leaf, it->axis, start, open, &all->root[k]);
-    *proven = r->exists;
-    for (int j = 0; j < k; j++) *proven &= ~(all->proven[j] & roots_meet(&all->root[j].at, r));
-    const lanes parameter = v_kept ? r->v : r->u, radius = v_kept ? r->radius_v : r->radius_u;
-    found += lanes_select(*proven, lanes_all(1), lanes_all(0));
-    within += lanes_select(*proven & (parameter > radius) & (1 - parameter > radius), lanes_all(1), lanes_all(0));
-    /* all other roots found are this one again */
-    const lane_mask only = r->alone;
-    for (int j = 0; j < k; j++) all->proven[j] &= ~only;
-    *proven |= only;
-    alone |= only;
+    newton_solve(p, it->leaf, it->axis, start, open, &known->root[k]);
+    known->proven[k] = r->exists;
+    for (int j = 0; j < k; j++) known->proven[k] &= ~(known->proven[j] & roots_meet(&known->root[j].at, r));
+    alone |= r->alone;
   }
-  /* Only if r is made of the leaf's own polynomials has it a root for each of the leaf's. Polynomials of a lower degree
-   * are off by the excess. Moved by a constant they have any one root of the leaf as their root, but two roots may need
-   * different constants, and so different r. The sign variations of r then prove that there is no root, but do not
-   * bound how many there are. */
-  return it->form.excess == 0 ? alone | ((found > 0) & (within == it->variations)) : alone;
+  return alone;
 }
 
-/* The lanes of `open` where pieces prove these roots to be all of the leaf's. Those without any are not tried by the
- * default method: there the ray nearly touches the leaf, and pieces would do one time in ten. */
-static lane_mask all_roots_cover(struct packet *p, const struct candidate *it, const struct all_roots *all,
-                                 lane_mask open)
-{
-  struct known_root known[TRIED_ROOTS];
-  lane_mask some = {0};
-  int count = 0;
-  for (int k = 0; k < all->count; k++) {
-    const struct newton_root *r = &all->root[k].at;
-    const lane_mask proven = all->proven[k] & open;
-    some |= proven;
-    if (lanes_any(proven)) known[count++] = (struct known_root){r, proven};
-  }
-  if (it->patch->lanes == SOLVER_LANES_SIGNS) open &= some;
-  return cover_proves(p, it, count, known, COVER_HALVINGS, open);
-}
-
-static void all_roots_offer(struct packet *p, const struct candidate *it, const struct all_roots *all, lane_mask where)
-{
-  for (int k = 0; k < all->count; k++)
-    offer_root(p, it, &all->root[k], where & all->proven[k] & inside(&all->root[k].at));
-}
-
-lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask active)
+/* With polish: finds the roots on the lanes of `active`, and closes those where they are proven to be all. */
+static lane_mask proven_roots(struct packet *p, struct candidate *it, const struct leaf_resultant *r, lane_mask active)
 {
   struct root_starts starts = {0};
-  struct all_roots all;
-  if (it->patch->lanes == SOLVER_LANES_SIGNS) {
+  const bool one = it->patch->lanes == SOLVER_LANES_SIGNS;
+  if (one) {
     p->tracer->counts.roots_found += lanes_count(active);
-    starts_set(it, 0, resultant_root(it), &starts);
+    starts_set(r, 0, resultant_root(r), &starts);
     starts.has[0] = active, starts.count = 1;
   } else if (it->patch->lanes != SOLVER_LANES_NONE) {
-    all_roots_find(p, it, active, &starts);
+    all_roots_find(p, it, r, active, &starts);
   } else {
-    method_starts(p, it, active, &starts);
+    method_starts(p, it, r, active, &starts);
   }
-  const lane_mask decided = all_roots_prove(p, it, &starts, &all);
-  all_roots_offer(p, it, &all, p->any ? active : decided);
-  const lane_mask open = active & ~decided & p->live;
-  if (!lanes_any(open)) return open;
-  const lane_mask covered = all_roots_cover(p, it, &all, open);
-  all_roots_offer(p, it, &all, covered);
+  const lane_mask alone = all_roots_prove(p, it, &starts);
+  offer_known(p, it, p->any ? active : alone);
+  const lane_mask open = active & ~alone & p->live;
+  /* Where the default method has no root, the ray nearly touches the leaf, and pieces would do one time in ten. */
+  const lane_mask tried = one ? open & it->known.proven[0] : open;
+  if (!lanes_any(tried)) return open;
+  const lane_mask covered = cover_proves(p, it, COVER_HALVINGS, tried);
+  offer_known(p, it, covered);
   return open & ~covered;
 }
 
-lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open)
+/* Without polish the roots are the answer, proven or not. */
+static void offer_bare_roots(struct packet *p, const struct candidate *it, const struct leaf_resultant *r,
+                             lane_mask open)
 {
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     struct method_roots roots;
-    lane_solve(p, it, lane, &roots);
+    lane_solve(p, it, r, lane, &roots);
     for (int n = 0; n < roots.count; n++)
       if (roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)
-        offer_unproven(p, it, lanes_all(roots.u[n]), lanes_all(roots.v[n]), lanes_mask(1u << lane));
+        offer_unproven(p, it, roots.u[n], roots.v[n], lane);
   }
+}
+
+lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open)
+{
+  const bool polish = it->patch->method->polish;
+  uint64_t *entered = p->tracer->counts.stages;
+  struct leaf_resultant r;
+  packet_charge(p, open & COST_RESULTANT);
+  entered[STAGE_RESULTANT] += lanes_count(open);
+  set_form(it, &r);
+  if (polish) open = resultant_varies(&r, open);
+  if (!lanes_any(open)) return open;
+  entered[STAGE_ROOTS] += lanes_count(open);
+  if (polish) return proven_roots(p, it, &r, open);
+  offer_bare_roots(p, it, &r, open);
   return (lane_mask){0};
 }

@@ -66,8 +66,9 @@ __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t ind
 static void bundle_leaf(struct bundle *b, uint32_t index, unsigned active)
 {
   const struct model *model = b->packet[0].model;
-  if (model_is_tree(model, index)) {
-    bundle_inner(b, model_inner(model, index), active);
+  const size_t trees = model->leaf_count + model->copy_count; /* boxes from here on */
+  if (index >= trees) {
+    bundle_inner(b, &model->inner[index - trees], active);
   } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);
   } else if (model->leaves) {
@@ -95,14 +96,14 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
   }
 }
 
-/* Whether the ray passes that box, and is to be tried on the leaf now. If so, the leaf is prefetched. */
-LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
+/* Those of the rays that pass that box, and are to be tried on the leaf now. If there are any, it is prefetched. */
+LANES_INLINE unsigned rays_pass(struct bundle *b, uint32_t box, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
-  if (!box_passed(b, box, 1u << lane)) return false;
-  if (!bundle_defer(b, box, 1u << lane)) return false;
-  if (box < model->leaf_count) fetch_leaf(model, box);
-  return true;
+  rays = box_passed(b, box, rays);
+  if (rays) rays = bundle_defer(b, box, rays);
+  if (rays && box < model->leaf_count) fetch_leaf(model, box);
+  return rays;
 }
 
 /* Takes one ray through what is below `child`. */
@@ -115,7 +116,7 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
     if (way.child == box) {
       on = ray_down(b, tree, &way);
     } else {
-      if (ray_passes(b, box, lane)) bundle_leaf(b, box, 1u << lane);
+      if (rays_pass(b, box, 1u << lane)) bundle_leaf(b, box, 1u << lane);
       on = (b->live >> lane & 1) && ray_next(b, &way);
     }
   }
@@ -142,7 +143,7 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
       } else if (child == box) {
         if (!ray_down(b, tree, way)) rays &= ~(1u << lane);
       } else if (waits_at[lane] == 0) {
-        if (ray_passes(b, box, lane)) waits_at[lane] = child;
+        if (rays_pass(b, box, 1u << lane)) waits_at[lane] = child;
         else if (!ray_next(b, way)) rays &= ~(1u << lane);
       } else {
         unsigned here = 0;
@@ -238,9 +239,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
     boxes++;
     if (child & BVH_LEAF) {
       const uint32_t box = child & ~BVH_LEAF;
-      rays = box_passed(b, box, rays);
-      if (rays) rays = bundle_defer(b, box, rays);
-      if (rays && box < b->packet[0].model->leaf_count) fetch_leaf(b->packet[0].model, box);
+      rays = rays_pass(b, box, rays);
       if (rays) bundle_leaf(b, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
       for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
