@@ -353,9 +353,10 @@ TEST(a_root_of_polish_off_is_not_sought)
 
 TEST(nothing_is_said_to_be_visible_that_may_be_hidden)
 {
-  ask(0), assert_false(exact_occluded(&asked));
-  ask(BIT(FIRST)), assert_true(exact_occluded(&asked));
-  ask(BIT(TOUCHED)), assert_true(exact_occluded(&asked));
-  ray.t_max = 1, assert_false(exact_occluded(&asked));
-  asked.limit = 0, assert_true(exact_occluded(&asked));
+  bool proven;
+  ask(0), assert_false(exact_occluded(&asked, &proven)), assert_true(proven);
+  ask(BIT(FIRST)), assert_true(exact_occluded(&asked, &proven)), assert_true(proven);
+  ask(BIT(TOUCHED)), assert_true(exact_occluded(&asked, &proven)), assert_false(proven);
+  ray.t_max = 1, assert_false(exact_occluded(&asked, &proven)), assert_true(proven);
+  asked.limit = 0, assert_true(exact_occluded(&asked, &proven)), assert_false(proven);
 }

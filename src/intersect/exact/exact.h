@@ -103,8 +103,8 @@ bool exact_all(const struct exact_case *asked, struct exact_list *list);
 /* all.c: returns false if there was no room. */
 bool exact_list_add(struct exact_list *list, const struct exact_found *found);
 
-/* Whether the ray hits anything, or may do so. */
-bool exact_occluded(const struct exact_case *asked);
+/* Whether the ray hits anything, or may do so. *proven: which of the two is known. */
+bool exact_occluded(const struct exact_case *asked, bool *proven);
 
 /* answer.c: the hit at a root, or, not `sure`, at a place that may be one. t is in units of the scaled direction. */
 void exact_hit(const struct model *model, const struct ray *ray, const struct exact_root *root, bool sure,

@@ -195,10 +195,11 @@ void exact_place(const struct exact_case *asked, struct exact_root *out)
   judge_end(&j);
 }
 
-bool exact_occluded(const struct exact_case *asked)
+bool exact_occluded(const struct exact_case *asked, bool *proven)
 {
   struct judge j;
   judge_run(&j, asked, JUDGE_ANY, NULL);
   judge_end(&j);
-  return j.hit || j.doubtful || j.cut_short;
+  *proven = j.hit || !(j.doubtful || j.cut_short);
+  return j.hit || !*proven;
 }

@@ -181,9 +181,9 @@ unsigned finish_occluded(const struct packet *p, bool out[])
   for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     const struct exact_case wanted = packet_case(p, lane);
-    const uint64_t before = *wanted.work;
-    if (exact_occluded(&wanted)) hit |= 1u << lane;
-    if (*wanted.work - before >= wanted.limit) p->postponed->exhausted |= 1u << lane;
+    bool proven;
+    if (exact_occluded(&wanted, &proven)) hit |= 1u << lane;
+    if (!proven) p->postponed->exhausted |= 1u << lane; /* a share of its budget may not have sufficed */
   }
   for (size_t l = 0; l < p->count; l++) out[l] = hit >> l & 1;
   return hit & packet_cut_off(p);
