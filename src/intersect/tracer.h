@@ -85,7 +85,7 @@ struct gather {
 
 /* The budget of a ray, in units of one box of the hierarchy tested, some 25 ns. All work is charged to it, by the
  * costs below. A ray that has exhausted it goes no further: its answer is what is known by then, and grazing. The last
- * resort gets what the lanes leave of it, at least a sixteenth (packet_case). A choice: some 8 ms. */
+ * resort gets what the lanes leave of it, at least a sixteenth (packet_case). A choice: some 7 ms. */
 enum { RAY_BUDGET = 1 << 18 };
 
 /* In a packet, the leaves that reach a ray, and their order, depend on its neighbours; so would the point where its
