@@ -1,5 +1,5 @@
-/* All hits of a ray are the nearest hits asked for one after the other. They do not depend on the ray's ends, the
- * rays beside it or the instruction set. There may be thousands. */
+/* All hits of a ray are the nearest hits asked for one after the other. They do not depend on the ray's ends or the
+ * instruction set. (The rays beside it: packets_test.c.) There may be thousands. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,25 +18,12 @@ struct kept {
   struct hit hits[MOST_HITS];
 };
 
-static void keep(const struct hit_list *list, struct kept *out)
-{
-  assert_true(list->count <= MOST_HITS);
-  out->certainty = list->certainty, out->count = list->count;
-  if (list->count > 0) memcpy(out->hits, list->hits, list->count * sizeof *list->hits);
-}
-
 static void all_of(struct world *world, const struct ray *ray, struct kept *out)
 {
-  struct hit_list list;
-  assert_int_equal(tracer_all(world->tracer, 1, ray, &list), STATUS_OK);
-  keep(&list, out);
-}
-
-static bool same_list(const struct kept *a, const struct hit_list *b)
-{
-  bool same = a->certainty == b->certainty && a->count == b->count;
-  for (size_t k = 0; same && k < a->count; k++) same = same_hit(&a->hits[k], &b->hits[k]);
-  return same;
+  const struct hit_list list = world_all(world, ray);
+  assert_true(list.count <= MOST_HITS);
+  out->certainty = list.certainty, out->count = list.count;
+  if (list.count > 0) memcpy(out->hits, list.hits, list.count * sizeof *list.hits);
 }
 
 /* All hits of each ray alone; valid until the next call. */
@@ -93,50 +80,6 @@ static void one_by_one(struct set_up *s)
 
 TEST(they_are_the_nearest_one_by_one) { on_all_stages(SEED, SCENES, NULL, one_by_one); }
 
-/* Six bent sides of a box, which share edges and corners. */
-static void fill_box(world_net nets[6])
-{
-  for (int p = 0; p < 6; p++) {
-    for (int n = 0; n < 16; n++) {
-      int at[3];
-      at[p / 2] = 3 * (p % 2), at[(p / 2 + 1) % 3] = n / 4, at[(p / 2 + 2) % 3] = n % 4;
-      struct random bend = {SEED + (uint64_t)(16 * at[0] + 4 * at[1] + at[2])};
-      for (int k = 0; k < 3; k++) nets[p][n / 4][n % 4][k] = at[k] - 1.5 + (double)(random_bits(&bend) % 5) / 8 - 0.25;
-    }
-  }
-}
-
-enum { CORNER_RAYS = 1000 };
-
-/* Also for rays through a corner: it belongs to the first of its patches, whichever of them the ray reaches first. */
-TEST(corners_too)
-{
-  struct random random = {SEED + 10};
-  world_net nets[6];
-  struct world world;
-  int wrong = 0, certain = 0;
-  fill_box(nets);
-  world_open(&world, nets, 6, NULL);
-  for (int n = 0; n < CORNER_RAYS; n++) {
-    struct ray ray = {.t_max = INFINITY};
-    const double *corner = nets[random_bits(&random) % 6][random_bits(&random) % 2 * 3][random_bits(&random) % 2 * 3];
-    for (int k = 0; k < 3; k++) {
-      ray.direction[k] = (double)(random_bits(&random) % 17) / 4 - 2;
-      ray.origin[k] = corner[k] - 2 * ray.direction[k];
-    }
-    if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) continue;
-    const struct hit nearest = world_closest(&world, &ray);
-    struct kept all;
-    all_of(&world, &ray, &all);
-    if (all.certainty != CERTAINTY_CERTAIN || all.count == 0 || nearest.certainty != CERTAINTY_CERTAIN) continue;
-    certain++;
-    if (!same_but_for_rounding(&nearest, &all.hits[0]) && wrong++ < 2) print_lists("corner", 0, &ray, &all);
-  }
-  world_close(&world);
-  assert_int_equal(wrong, 0);
-  assert_true(certain > CORNER_RAYS / 20);
-}
-
 /* The hits of a part of the ray are the hits of the whole ray within that part. */
 static void parts(struct set_up *s)
 {
@@ -163,31 +106,6 @@ static void parts(struct set_up *s)
 }
 
 TEST(parts_of_a_ray_have_theirs) { on_all_stages(SEED + 1, SCENES, NULL, parts); }
-
-struct alone {
-  const struct kept *lists; /* of each ray alone */
-  int wrong;
-};
-
-static void compare_with_alone(const struct set_up *s, size_t size, const size_t number[], const struct ray rays[],
-                               void *context)
-{
-  struct alone *alone = context;
-  struct hit_list lists[PACKET_SIZE];
-  assert_int_equal(tracer_all(s->world->tracer, size, rays, lists), STATUS_OK);
-  for (size_t n = 0; n < size; n++)
-    if (!same_list(&alone->lists[number[n]], &lists[n]) && alone->wrong++ < 2)
-      print_lists("companions", s->kind, &rays[n], &alone->lists[number[n]]);
-}
-
-static void companions(struct set_up *s)
-{
-  struct alone alone = {lists_alone(s), 0};
-  in_all_companies(s, compare_with_alone, &alone);
-  assert_int_equal(alone.wrong, 0);
-}
-
-TEST(lists_do_not_depend_on_companions) { on_all_stages(SEED + 2, SCENES, NULL, companions); }
 
 /* Where the answer is certain, every instruction set counts the same hits and finds them on the same patches. */
 static void kernels(struct set_up *s)
@@ -301,13 +219,6 @@ TEST(test_standing_on)
   }
 }
 
-static struct hit_list list_of(struct world *world, const struct ray *ray)
-{
-  struct hit_list list;
-  assert_int_equal(tracer_all(world->tracer, 1, ray, &list), STATUS_OK);
-  return list;
-}
-
 /* Two patches with one border, whichever of theirs and in whatever sense, and a ray along z through a point of it: it
  * crosses the surface there, once, if they lie on either side of the border as it sees them. Otherwise it touches it,
  * which is not certain. */
@@ -339,7 +250,7 @@ TEST(test_two_sides)
     struct world world;
     world_open(&world, nets, 2, NULL);
     const struct ray ray = {{at[0], at[1], 64}, {0, 0, -1}, 0, INFINITY};
-    const struct hit_list list = list_of(&world, &ray);
+    const struct hit_list list = world_all(&world, &ray);
     const bool crosses = (side[0] > 0) != (side[1] > 0);
     int here = 0;
     for (size_t k = 0; k < list.count; k++) {
@@ -370,7 +281,7 @@ TEST(test_loop)
     for (int n = 0; n < 16; n++) {
       const struct ray ray = {{0, random_between(&random, 0.1, 2.9), 8}, {0, 0, -1}, 0, INFINITY};
       const struct hit nearest = world_closest(&world, &ray);
-      const struct hit_list list = list_of(&world, &ray);
+      const struct hit_list list = world_all(&world, &ray);
       assert_int_equal(nearest.certainty, CERTAINTY_CERTAIN);
       assert_int_equal(list.certainty, CERTAINTY_CERTAIN);
       assert_int_equal(list.count, 3);
@@ -398,7 +309,7 @@ TEST(test_line_along_the_ray)
     const struct ray ray = {{0, 0, 8}, {0, 0, -1}, 0, INFINITY};
     const struct hit nearest = world_closest(&world, &ray);
     assert_int_equal(nearest.certainty, CERTAINTY_GRAZING);
-    assert_int_equal(list_of(&world, &ray).certainty, CERTAINTY_GRAZING);
+    assert_int_equal(world_all(&world, &ray).certainty, CERTAINTY_GRAZING);
     assert_true(nearest.patch == 0 && nearest.t == 5);
     world_close(&world);
   }
@@ -424,7 +335,7 @@ TEST(test_beside_a_border)
       const double y = random_between(&random, -8, 8), x = ldexp(n % 2 ? 1 : -1, -n / 2);
       const struct ray ray = {{x, y, 64}, {0, 0, -1}, 0, INFINITY};
       const struct hit nearest = world_closest(&world, &ray);
-      const struct hit_list list = list_of(&world, &ray);
+      const struct hit_list list = world_all(&world, &ray);
       assert_int_equal(nearest.certainty, CERTAINTY_CERTAIN);
       assert_int_equal(list.certainty, CERTAINTY_CERTAIN);
       assert_int_equal(list.count, n % 2);
@@ -432,36 +343,6 @@ TEST(test_beside_a_border)
     }
     world_close(&world);
   }
-}
-
-/* A contact with a surface is not certain: a bowl touched at its bottom, a sheet met along a line. Beside it the answer
- * is, and so it is where the ray starts or ends exactly on a flat sheet. */
-TEST(test_touching)
-{
-  static const double square[4] = {3, -1, -1, 3}; /* 3 x^2 on [-1,1] */
-  world_net nets[2];
-  for (int n = 0; n < 16; n++)
-    for (int p = 0; p < 2; p++) {
-      nets[p][n / 4][n % 4][0] = 2 * (n / 4) - 3, nets[p][n / 4][n % 4][1] = 2 * (n % 4) - 3;
-      nets[p][n / 4][n % 4][2] = p ? 16 : square[n / 4] + square[n % 4];
-    }
-  struct world world;
-  world_open(&world, nets, 2, NULL);
-  static const struct ray touching[] = {{{-8, 0, 0}, {1, 0, 0}, 0, INFINITY},
-                                        {{-8, -8, 0}, {1, 1, 0}, 0, INFINITY},
-                                        {{-8, 0.5, 16}, {1, 0, 0}, 0, INFINITY},
-                                        {{0.5, 0.25, 16}, {0, 0, 1}, 0, INFINITY},
-                                        {{0.5, 0.25, 8}, {0, 0, 1}, 0, 8}};
-  for (size_t n = 0; n < sizeof touching / sizeof touching[0]; n++)
-    assert_int_equal(list_of(&world, &touching[n]).certainty, n < 3 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN);
-  for (int n = 1; n < 60; n++) {
-    const struct ray above = {{-8, 0, ldexp(1, -n)}, {1, 0, 0}, 0, INFINITY},
-                     below = {{-8, 0, -ldexp(1, -n)}, {1, 0, 0}, 0, INFINITY};
-    const struct hit_list list = list_of(&world, &above);
-    assert_true(list.certainty == CERTAINTY_CERTAIN && list.count == 2 && list.hits[0].t < list.hits[1].t);
-    assert_true(list_of(&world, &below).certainty == CERTAINTY_CERTAIN && list_of(&world, &below).count == 0);
-  }
-  world_close(&world);
 }
 
 /* All hits and the nearest hit agree on a possible hit whose t, as a double, equals an end of the ray: at a tip, and
@@ -482,7 +363,7 @@ TEST(test_next_to_an_end)
       struct ray ray = n ? fifth : third;
       if (border) ray.origin[0] = 3, ray.origin[1] = 4;
       const struct hit nearest = world_closest(&world, &ray);
-      const struct hit_list list = list_of(&world, &ray);
+      const struct hit_list list = world_all(&world, &ray);
       assert_int_equal(nearest.patch, 0);
       assert_int_equal(nearest.certainty, CERTAINTY_CERTAIN);
       assert_int_equal(list.certainty, CERTAINTY_GRAZING);
@@ -509,8 +390,8 @@ TEST(test_twice_round)
   struct world world;
   world_open(&world, nets, 6, NULL);
   const struct ray through = {{0, 0, -4}, {0, 0, 1}, 0, INFINITY}, beside = {{0.5, 0.25, -4}, {0, 0, 1}, 0, INFINITY};
-  assert_int_equal(list_of(&world, &through).certainty, CERTAINTY_GRAZING);
-  const struct hit_list list = list_of(&world, &beside);
+  assert_int_equal(world_all(&world, &through).certainty, CERTAINTY_GRAZING);
+  const struct hit_list list = world_all(&world, &beside);
   assert_true(list.certainty == CERTAINTY_CERTAIN && list.count == 2);
   world_close(&world);
 }
@@ -521,14 +402,15 @@ TEST(test_worn)
 {
   enum { PATCHES = 5, PACKETS = 12 };
   static world_net nets[PATCHES];
-  static struct kept alone;
   struct random random = {SEED + 7};
+  struct tracer *alone;
   struct world world;
   const struct method options = method_of("bernstein { split 16 }");
   int grazing = 0, wrong = 0;
   for (int p = 0; p < PATCHES; p++)
     for (int n = 0; n < 16; n++) nets[p][n / 4][n % 4][1] = (n / 4 - 1.5) * 0.1 * p + (n % 4 - 1) * 0.1;
   world_open(&world, nets, PATCHES, &options);
+  assert_int_equal(tracer_create(world.intersector, &alone), STATUS_OK);
   for (int packet = 0; packet < PACKETS; packet++) {
     struct ray rays[PACKET_SIZE];
     struct hit_list lists[PACKET_SIZE];
@@ -538,15 +420,14 @@ TEST(test_worn)
       rays[n] = (struct ray){{off, random_between(&random, -0.3, 0.6), 0}, {0, way, n % 3 ? 0 : off}, 0, INFINITY};
     }
     assert_int_equal(tracer_all(world.tracer, PACKET_SIZE, rays, lists), STATUS_OK);
-    struct kept together[PACKET_SIZE];
-    for (int n = 0; n < PACKET_SIZE; n++) keep(&lists[n], &together[n]);
     for (int n = 0; n < PACKET_SIZE; n++) {
-      all_of(&world, &rays[n], &alone);
-      const struct hit_list list = {together[n].certainty, together[n].count, together[n].hits};
-      grazing += alone.certainty == CERTAINTY_GRAZING, wrong += !same_list(&alone, &list);
+      struct hit_list list;
+      assert_int_equal(tracer_all(alone, 1, &rays[n], &list), STATUS_OK);
+      grazing += list.certainty == CERTAINTY_GRAZING, wrong += !same_list(&lists[n], &list);
     }
   }
   assert_true(grazing > PACKETS * PACKET_SIZE / 8);
   assert_int_equal(wrong, 0);
+  tracer_destroy(alone);
   world_close(&world);
 }

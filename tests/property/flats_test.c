@@ -58,9 +58,8 @@ static void check_rays(struct world *world, const struct ray rays[RAYS], int *hi
     tracer_closest(world->tracer, PACKET, &rays[n], together);
     for (int l = 0; l < PACKET; l++) {
       const struct hit alone = world_closest(world, &rays[n + l]);
-      struct hit_list list;
       assert_same_hit("flats", 0, &rays[n + l], &alone, &together[l]);
-      assert_int_equal(tracer_all(world->tracer, 1, &rays[n + l], &list), STATUS_OK);
+      const struct hit_list list = world_all(world, &rays[n + l]);
       if (alone.certainty != CERTAINTY_CERTAIN || list.certainty != CERTAINTY_CERTAIN) continue;
       assert_int_equal(alone.patch != HIT_NONE, list.count > 0);
       if (list.count == 0) continue;
@@ -143,6 +142,17 @@ TEST(what_starts_in_a_plane_leaves_it)
   assert_true(hits > SCENES * RAYS / 8);
 }
 
+/* The ray meets nothing, so certainly. */
+static void assert_leaves(const struct world *world, const struct ray *ray, enum certainty certainty)
+{
+  const struct hit hit = world_closest(world, ray);
+  const struct hit_list list = world_all(world, ray);
+  bool occluded;
+  tracer_occluded(world->tracer, 1, ray, &occluded);
+  assert_true(hit.patch == HIT_NONE && hit.certainty == certainty && !occluded);
+  assert_true(list.count == 0 && list.certainty == certainty);
+}
+
 /* However slowly a ray leaves its plane, and whatever is open about the patches there, it meets none of them. */
 TEST(what_leaves_a_plane_slowly_does_not_meet_it)
 {
@@ -153,8 +163,6 @@ TEST(what_leaves_a_plane_slowly_does_not_meet_it)
     open_folded(&random, axis, 0.3, &world);
     for (int n = 0; n < RAYS; n++) {
       struct ray ray = {.t_max = INFINITY};
-      struct hit_list list;
-      bool occluded;
       for (int k = 0; k < 3; k++) {
         ray.origin[k] = random_between(&random, -3, 3);
         ray.direction[k] = random_between(&random, -0.5, 0.5) - ray.origin[k];
@@ -162,13 +170,7 @@ TEST(what_leaves_a_plane_slowly_does_not_meet_it)
       ray.origin[(axis + 1) % 3] = copysign(random_between(&random, 1, 3), ray.origin[(axis + 1) % 3]); /* beside all
                                                                                                          * patches */
       ray.origin[axis] = 0.3, ray.direction[axis] = ldexp(1, -n % 60);
-      const struct hit hit = world_closest(&world, &ray);
-      tracer_occluded(world.tracer, 1, &ray, &occluded);
-      assert_int_equal(hit.patch, HIT_NONE);
-      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
-      assert_false(occluded);
-      assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
-      assert_true(list.count == 0 && list.certainty == CERTAINTY_CERTAIN);
+      assert_leaves(&world, &ray, CERTAINTY_CERTAIN);
     }
     assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
     world_close(&world);
@@ -186,8 +188,6 @@ TEST(what_leaves_a_plane_slowly_is_judged_where_it_starts)
     open_folded(&random, axis, 0.3, &world);
     for (int n = 0; n < RAYS; n++) {
       struct ray ray = {.t_max = INFINITY}, across;
-      struct hit_list list;
-      bool occluded;
       for (int k = 0; k < 3; k++) {
         ray.origin[k] = random_between(&random, -1, 1);
         ray.direction[k] = random_between(&random, -1, 1);
@@ -195,13 +195,7 @@ TEST(what_leaves_a_plane_slowly_is_judged_where_it_starts)
       ray.origin[axis] = 0.3, ray.direction[axis] = 0, across = ray;
       for (int k = 0; k < 3; k++) across.direction[k] = k == axis;
       ray.direction[axis] = ldexp(1, -n * 4);
-      const struct hit hit = world_closest(&world, &ray), straight = world_closest(&world, &across);
-      tracer_occluded(world.tracer, 1, &ray, &occluded);
-      assert_int_equal(hit.patch, HIT_NONE);
-      assert_int_equal(hit.certainty, straight.certainty);
-      assert_false(occluded);
-      assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
-      assert_true(list.count == 0 && list.certainty == straight.certainty);
+      assert_leaves(&world, &ray, world_closest(&world, &across).certainty);
     }
     world_close(&world);
   }

@@ -216,7 +216,6 @@ TEST(of_what_lies_in_a_plane_little_is_looked_at)
   struct random random = {SEED + 7};
   world_net nets[4];
   struct world world;
-  struct hit_list list;
   uint64_t most = 0;
   for (size_t n = 0; n < 4; n++) disc_quarter(n, nets[n]);
   world_open(&world, nets, 4, NULL);
@@ -226,7 +225,7 @@ TEST(of_what_lies_in_a_plane_little_is_looked_at)
     const struct ray ray = {
       .origin = {-5 * c - off * s, 0, -5 * s + off * c}, .direction = {c, 0, s}, .t_max = INFINITY};
     const uint64_t before = tracer_counts(world.tracer)->work;
-    assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+    const struct hit_list list = world_all(&world, &ray);
     const uint64_t work = tracer_counts(world.tracer)->work - before;
     most = work > most ? work : most;
     assert_int_equal(list.certainty, CERTAINTY_GRAZING);

@@ -1,4 +1,4 @@
-/* The answer to a ray does not depend on the rays beside it or the order of the patches. (accuracy-kernels
+/* The answers to a ray do not depend on the rays beside it or the order of the patches. (accuracy-kernels
  * compares the instruction sets, and any hit with the nearest.) */
 #include <math.h>
 #include <stdlib.h>
@@ -18,29 +18,36 @@ static const struct hit *answers_alone(const struct set_up *s)
   return alone;
 }
 
-struct alone {
-  const struct hit *hits; /* of each ray alone */
-  int wrong;
-};
-
-static void compare_with_alone(const struct set_up *s, size_t size, const size_t number[], const struct ray rays[],
-                               void *context)
-{
-  struct alone *alone = context;
-  struct hit hits[PACKET_SIZE];
-  tracer_closest(s->world->tracer, size, rays, hits);
-  for (size_t n = 0; n < size; n++) {
-    const struct hit *want = &alone->hits[number[n]];
-    if (!same_hit(&hits[n], want) && alone->wrong++ < 2)
-      world_print_case("companions", s->kind, &rays[n], want, &hits[n]);
-  }
-}
-
+/* In their order, shuffled, and shuffled in packets of every size. */
 static void companions(struct set_up *s)
 {
-  struct alone alone = {answers_alone(s), 0};
-  in_all_companies(s, compare_with_alone, &alone);
-  assert_int_equal(alone.wrong, 0);
+  const struct hit *alone = answers_alone(s);
+  struct tracer *other; /* for all hits of one ray */
+  size_t order[STAGE_RAYS];
+  int wrong = 0;
+  assert_int_equal(tracer_create(s->world->intersector, &other), STATUS_OK);
+  for (size_t n = 0; n < STAGE_RAYS; n++) order[n] = n;
+  for (int round = 0; round < 3; round++) {
+    for (size_t first = 0, size; first < STAGE_RAYS; first += size) {
+      struct ray rays[PACKET_SIZE];
+      struct hit hits[PACKET_SIZE];
+      struct hit_list lists[PACKET_SIZE], list;
+      size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
+      if (size > STAGE_RAYS - first) size = STAGE_RAYS - first;
+      for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
+      tracer_closest(s->world->tracer, size, rays, hits);
+      assert_int_equal(tracer_all(s->world->tracer, size, rays, lists), STATUS_OK);
+      for (size_t n = 0; n < size; n++) {
+        const struct hit *want = &alone[order[first + n]];
+        assert_int_equal(tracer_all(other, 1, &rays[n], &list), STATUS_OK);
+        if ((!same_hit(&hits[n], want) || !same_list(&lists[n], &list)) && wrong++ < 2)
+          world_print_case("companions", s->kind, &rays[n], want, &hits[n]);
+      }
+    }
+    random_shuffle(s->random, STAGE_RAYS, order);
+  }
+  tracer_destroy(other);
+  assert_int_equal(wrong, 0);
 }
 
 TEST(answers_do_not_depend_on_companions)
@@ -101,10 +108,7 @@ TEST(exhausted_rays_do_not_depend_on_companions)
   world.tracer->budget = BUDGET;
   for (int n = 0; n < RAYS; n++) {
     rays[n] = (struct ray){.t_max = INFINITY};
-    for (int k = 0; k < 3; k++) {
-      rays[n].origin[k] = random_between(&random, -3, 3);
-      rays[n].direction[k] = random_between(&random, -1, 1) - rays[n].origin[k];
-    }
+    world_towards(&random, (const double[3]){0}, 1, &rays[n]);
   }
   for (int n = 0; n < RAYS; n += FEW) {
     struct hit together[FEW];

@@ -81,8 +81,7 @@ static int check(struct world *world, const struct shot shots[RAYS], bool flat)
     const struct shot *shot = &shots[n];
     if (shot->start < NEAR_START || (!flat && shot->start < 4)) continue;
     const struct hit alone = world_closest(world, &rays[n]);
-    struct hit_list list;
-    assert_int_equal(tracer_all(world->tracer, 1, &rays[n], &list), STATUS_OK);
+    const struct hit_list list = world_all(world, &rays[n]);
     const char *what = wrong_hit(shot, &hits[n], flat);
     if (!what) what = wrong_hit(shot, &alone, flat);
     if (!what && occluded[n] != shot->hits) what = "occluded";

@@ -238,8 +238,7 @@ TEST(sheets_that_wide_arithmetic_just_tells)
       const struct ray ray = {
         {random_between(&random, 0, 3), random_between(&random, 0, 3), -0x1p55}, {0, 0, 1}, 0, INFINITY};
       const struct hit nearest = world_closest(&world, &ray);
-      struct hit_list list;
-      assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+      const struct hit_list list = world_all(&world, &ray);
       if (nearest.certainty != CERTAINTY_CERTAIN || list.certainty != CERTAINTY_CERTAIN) continue;
       sure++;
       bool good = list.count == SHEETS && abs(at[list.hits[0].patch] - at[nearest.patch]) * apart <= 0x1p-53;
@@ -263,7 +262,6 @@ TEST(planes_that_meet_on_the_ray_are_met_at_one_t)
   for (int slant = 0; slant <= 64; slant += 5) {
     world_net nets[2];
     struct world world;
-    struct hit_list list;
     for (int n = 0; n < 16; n++) {
       for (int p = 0; p < 2; p++) {
         double *x = nets[p][n / 4][n % 4];
@@ -273,7 +271,7 @@ TEST(planes_that_meet_on_the_ray_are_met_at_one_t)
     world_open(&world, nets, 2, NULL);
     const struct ray ray = {{-2, 0, -2 * ldexp(1, -slant)}, {1, 0, ldexp(1, -slant)}, 0, INFINITY};
     const struct hit hit = world_closest(&world, &ray);
-    assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+    const struct hit_list list = world_all(&world, &ray);
     assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
     assert_int_equal(list.certainty, CERTAINTY_CERTAIN);
     world_close(&world);

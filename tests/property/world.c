@@ -212,22 +212,6 @@ void on_all_stages(uint64_t seed, int scenes, const struct method *options, void
   }
 }
 
-void in_all_companies(struct set_up *s, ask_packet *ask, void *context)
-{
-  size_t order[STAGE_RAYS];
-  for (size_t n = 0; n < STAGE_RAYS; n++) order[n] = n;
-  for (int round = 0; round < 3; round++) {
-    for (size_t first = 0, size; first < STAGE_RAYS; first += size) {
-      size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
-      if (size > STAGE_RAYS - first) size = STAGE_RAYS - first;
-      struct ray rays[PACKET_SIZE];
-      for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
-      ask(s, size, order + first, rays, context);
-    }
-    random_shuffle(s->random, STAGE_RAYS, order);
-  }
-}
-
 void world_ask_both(struct tracer *const tracers[2], struct random *random, world_net *nets, size_t count, int first,
                     struct asked *out)
 {
@@ -245,6 +229,13 @@ bool same_hit(const struct hit *a, const struct hit *b)
   if (a->patch == HIT_NONE) return true;
   return a->t == b->t && a->u == b->u && a->v == b->v && a->point_error == b->point_error &&
          !memcmp(a->point, b->point, sizeof a->point) && !memcmp(a->normal, b->normal, sizeof a->normal);
+}
+
+bool same_list(const struct hit_list *a, const struct hit_list *b)
+{
+  bool same = a->certainty == b->certainty && a->count == b->count;
+  for (size_t k = 0; same && k < a->count; k++) same = same_hit(&a->hits[k], &b->hits[k]);
+  return same;
 }
 
 void world_print_case(const char *what, int kind, const struct ray *r, const struct hit *a, const struct hit *b)
@@ -298,6 +289,13 @@ struct hit world_closest(const struct world *world, const struct ray *ray)
   memset(&hit, 0, sizeof hit);
   tracer_closest(world->tracer, 1, ray, &hit);
   return hit;
+}
+
+struct hit_list world_all(const struct world *world, const struct ray *ray)
+{
+  struct hit_list list;
+  assert_int_equal(tracer_all(world->tracer, 1, ray, &list), STATUS_OK);
+  return list;
 }
 
 void world_scale_net(world_net net, double factor, double offset, world_net out)

@@ -64,12 +64,6 @@ struct set_up {
 /* Calls `body` for `scenes` scenes of each kind, one after the other; options == NULL means the default. */
 void on_all_stages(uint64_t seed, int scenes, const struct method *options, void (*body)(struct set_up *stage));
 
-/* Passes the rays of the stage to `ask` in packets: in their order, shuffled, and shuffled in packets of every size.
- * `number` holds the indices of a packet's rays. */
-typedef void ask_packet(const struct set_up *stage, size_t size, const size_t number[], const struct ray rays[],
-                        void *context);
-void in_all_companies(struct set_up *stage, ask_packet *ask, void *context);
-
 /* A packet of rays, and two tracers' answers to them, to each in three ways. */
 enum { ASKED_RAYS = 8 };
 struct asked {
@@ -86,11 +80,17 @@ void world_ask_both(struct tracer *const tracers[2], struct random *random, worl
 /* Whether two hits are the same to the last bit. For misses only the certainty counts. */
 bool same_hit(const struct hit *a, const struct hit *b);
 
+/* Whether two lists are. */
+bool same_list(const struct hit_list *a, const struct hit_list *b);
+
 /* Whether two nearest hits of the ray may both be right: if both are certain, they must be equal within rounding. */
 bool hits_agree(const struct ray *ray, const struct hit *a, const struct hit *b);
 
 /* The answer to one ray alone. */
 struct hit world_closest(const struct world *world, const struct ray *ray);
+
+/* All hits of one ray alone; valid until the tracer is asked again. */
+struct hit_list world_all(const struct world *world, const struct ray *ray);
 
 /* Prints a ray and two answers that should agree; `kind` is the scene's. */
 void world_print_case(const char *what, int kind, const struct ray *ray, const struct hit *a, const struct hit *b);

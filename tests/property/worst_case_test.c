@@ -169,14 +169,13 @@ TEST(a_ray_takes_no_more_than_its_budget)
     struct intersect_counts before = {.work = 0};
     for (int n = 0; n < RAYS; n++) {
       struct ray ray = {.t_max = INFINITY};
-      struct hit_list list;
       bool occluded;
       scene->aim(&random, &ray);
       const struct hit hit = world_closest(&world, &ray);
       within(counted(&world, &before), WORK);
       tracer_occluded(world.tracer, 1, &ray, &occluded);
       within(counted(&world, &before), WORK);
-      assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+      const struct hit_list list = world_all(&world, &ray);
       within(counted(&world, &before), WORK_ALL);
       if (hit.certainty != CERTAINTY_CERTAIN) continue;
       assert_int_equal(occluded, hit.patch != HIT_NONE);
