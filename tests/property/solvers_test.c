@@ -8,9 +8,14 @@
 
 enum { SEED = 20240521, SCENES = 2, RAYS = 96 };
 
-static void answer(struct world *world, const struct ray rays[RAYS], struct hit hits[RAYS])
+/* The nearest hits by a method. */
+static void answer(const struct method *method, world_net *nets, size_t count, const struct ray rays[RAYS],
+                   struct hit hits[RAYS])
 {
-  for (size_t n = 0; n < RAYS; n += PACKET_SIZE) tracer_closest(world->tracer, PACKET_SIZE, rays + n, hits + n);
+  struct world world;
+  world_open(&world, nets, count, method);
+  for (size_t n = 0; n < RAYS; n += PACKET_SIZE) tracer_closest(world.tracer, PACKET_SIZE, rays + n, hits + n);
+  world_close(&world);
 }
 
 static int certain_hits(const struct hit hits[RAYS])
@@ -59,12 +64,9 @@ TEST(answers_are_the_defaults)
     const size_t count = world_fill((enum world_kind)kind, &random, nets);
     for (int n = 0; n < RAYS; n++) rays[n] = world_ray(&random, nets, count, n % RAY_KINDS);
     for (int way = 0; way < WAYS; way++) {
-      struct world world;
       const struct method method = method_of(ways[way]);
-      world_open(&world, nets, count, &method);
-      answer(&world, rays, way > 0 ? got : want);
+      answer(&method, nets, count, rays, way > 0 ? got : want);
       certain[way] += certain_hits(way > 0 ? got : want);
-      world_close(&world);
       for (int n = 0; way > 0 && n < RAYS; n++)
         if (!hits_agree(&rays[n], &got[n], &want[n]) && wrong++ < 5)
           world_print_case(ways[way], kind, &rays[n], &want[n], &got[n]);
@@ -105,16 +107,11 @@ TEST(bare_roots_are_the_solvers_own)
         .t_max = INFINITY};
       for (int k = 0; k < 2; k++) rays[n].origin[k] -= 8 * rays[n].direction[k];
     }
-    struct world world;
-    world_open(&world, net, 1, NULL);
-    answer(&world, rays, want);
-    world_close(&world);
+    answer(NULL, net, 1, rays, want);
     for (size_t way = 0; way < SPLITS * solver_count(); way++) {
       struct method options = method_of(solver_at(way / SPLITS)->name);
       options.polish = false, options.split = splits[way % SPLITS];
-      world_open(&world, net, 1, &options);
-      answer(&world, rays, got);
-      world_close(&world);
+      answer(&options, net, 1, rays, got);
       for (int n = 0; n < RAYS; n++) {
         if (want[n].patch == HIT_NONE) continue;
         hits++;
@@ -143,23 +140,18 @@ TEST(rounding_makes_no_root_complex)
     static struct hit want[RAYS], got[RAYS];
     const size_t count = world_fill(WORLD_WILD, &random, nets);
     for (int n = 0; n < RAYS; n++) rays[n] = world_ray(&random, nets, count, 0);
-    struct world world;
-    world_open(&world, nets, count, NULL);
-    answer(&world, rays, want);
-    world_close(&world);
+    answer(NULL, nets, count, rays, want);
     hits += certain_hits(want);
     for (int e = 0; e < 2; e++) {
       struct method options = method_of(methods[scene % 2]);
       options.roots.tolerance = eps[e];
-      world_open(&world, nets, count, &options);
-      answer(&world, rays, got);
+      answer(&options, nets, count, rays, got);
       for (int n = 0; n < RAYS; n++) {
         if (want[n].certainty != CERTAINTY_CERTAIN) continue;
         const bool hit = want[n].patch != HIT_NONE, found = got[n].patch != HIT_NONE;
         wrong[e] += hit && !(found && fabs(got[n].t - want[n].t) <= 0.01 * want[n].t);
         phantoms[e] += !hit && found;
       }
-      world_close(&world);
     }
   }
   assert_true(hits > RAYS);

@@ -16,79 +16,6 @@
 
 enum { SEED = 20261122, RAYS = 400, MANY = 70000 };
 
-/* The nets alone, or with small patches far away added: one leaf each in both cases. With a floor added too, so wide
- * that the small ones are in a tree of their own. */
-#define FLOOR 0x1p33
-
-static void side_open(struct world *side, struct method *solver, world_net nets[], size_t count, size_t far,
-                      bool floored)
-{
-  struct random random = {SEED};
-  *side = (struct world){.scene = {.solvers = solver, .solver_count = 1, .patch_count = count + far + floored}};
-  side->scene.patches = calloc(count + far + floored, sizeof *side->scene.patches);
-  assert_non_null(side->scene.patches);
-  struct scene_patch *patch = side->scene.patches;
-  for (int n = 0; n < 16 && floored; n++) {
-    double *at = patch->P[n / 4][n % 4];
-    at[0] = FLOOR * (n / 4 - 1.25), at[1] = -20, at[2] = FLOOR * (n % 4 - 1.25);
-  }
-  if (floored) patch++;
-  for (size_t p = 0; p < count; p++, patch++) memcpy(patch->P, nets[p], sizeof nets[p]);
-  for (size_t p = 0; p < far; p++, patch++)
-    for (int n = 0; n < 48; n++) patch->P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(&random, 0, 1);
-  world_prepare(side);
-  assert_true((side->tracer->model->leaves != NULL) == (far == 0));
-  const size_t inner = side->tracer->model->inner_count;
-  if (far > 0) assert_true(floored ? inner > 0 : inner == 0);
-}
-
-static int compare(int kind, struct tracer *const tracers[2], struct random *random, world_net nets[], size_t count)
-{
-  int hits = 0;
-  struct asked asked;
-  for (int n = 0; n < RAYS; n += ASKED_RAYS) {
-    world_ask_both(tracers, random, nets, count, n, &asked);
-    for (int l = 0; l < ASKED_RAYS; l++) {
-      const struct hit_list *kept = &asked.list[0][l], *unkept = &asked.list[1][l];
-      hits += asked.hit[0][l].patch != HIT_NONE;
-      assert_same_hit("kept or not", kind, &asked.rays[l], &asked.hit[0][l], &asked.hit[1][l]);
-      assert_int_equal(asked.occluded[0][l], asked.occluded[1][l]);
-      assert_int_equal(kept->certainty, unkept->certainty);
-      /* what a list holds that is not certain also depends on the work that the boxes of others took */
-      if (kept->certainty != CERTAINTY_CERTAIN) continue;
-      assert_int_equal(kept->count, unkept->count);
-      for (size_t h = 0; h < kept->count; h++)
-        assert_same_hit("kept or not, of all", kind, &asked.rays[l], &kept->hits[h], &unkept->hits[h]);
-    }
-  }
-  return hits;
-}
-
-static void answers_are_the_same(void **state)
-{
-  static world_net nets[WORLD_MAX];
-  struct random random = {SEED};
-  static const struct {
-    enum world_kind kind;
-    const char *solver;
-  } ways[] = {{WORLD_GRID, "bernstein { split 2 }"}, {WORLD_WILD, "aberth { split 1 }"}};
-  (void)state;
-  for (size_t n = 0; n < sizeof ways / sizeof ways[0]; n++) {
-    const int kind = (int)ways[n].kind;
-    struct method solver = method_of(ways[n].solver);
-    struct world sides[2];
-    const size_t count = world_fill(ways[n].kind, &random, nets);
-    for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY, kind % 2);
-    struct tracer anew; /* remembers no leaves, unlike the other one, and makes each anew */
-    tracer_begin(sides[1].intersector, &anew);
-    const int hits = compare(kind, (struct tracer *[]){sides[0].tracer, sides[1].tracer}, &random, nets, count) +
-                     compare(kind, (struct tracer *[]){sides[0].tracer, &anew}, &random, nets, count);
-    tracer_end(&anew);
-    assert_true(hits > RAYS / 16);
-    for (int k = 0; k < 2; k++) world_close(&sides[k]);
-  }
-}
-
 /* The memory of the process that a patch may take from its text to rays, in bytes, at the worst moment: while it is
  * read, in all if it is one leaf; and if it is four leaves, the maximum, of 140 bytes each with their part of the
  * hierarchy. */
@@ -179,9 +106,9 @@ static void check_memory(double bend, long most)
 #endif
 }
 
-static void memory_is_bounded(void **state)
+/* The first test, because a peak stays. */
+TEST(memory_is_bounded)
 {
-  (void)state;
   check_memory(0.01, PATCH_BYTES);
   check_memory(1, PATCH_BYTES_OF_FOUR);
 }
@@ -193,14 +120,13 @@ static void keep_text(void *context, const char *text, size_t length)
 }
 
 /* The line of the text is already released when an error is reported there at the end. */
-static void errors_show_their_lines(void **state)
+TEST(errors_show_their_lines)
 {
   static const char path[] = "unkept_error_test.pscn";
   const struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = NAN};
   char told[1000] = "";
   struct diagnostics diagnostics = {.tell = keep_text, .context = told};
   struct scene *scene;
-  (void)state;
   write_scene(path, 1, "  #ifdef (pscn) // never closed\n");
   assert_int_equal(language_load(path, &settings, &diagnostics, &scene), STATUS_INPUT);
   assert_int_equal(remove(path), 0);
@@ -208,9 +134,74 @@ static void errors_show_their_lines(void **state)
                             "    #ifdef (pscn) // never closed\n    ^~~~~~\n");
 }
 
-int main(void)
+/* The nets alone, or with small patches far away added: one leaf each in both cases. With a floor added too, so wide
+ * that the small ones are in a tree of their own. */
+#define FLOOR 0x1p33
+
+static void side_open(struct world *side, struct method *solver, world_net nets[], size_t count, size_t far,
+                      bool floored)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_bounded), /* first, because a peak stays */
-                                     cmocka_unit_test(errors_show_their_lines), cmocka_unit_test(answers_are_the_same)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  struct random random = {SEED};
+  *side = (struct world){.scene = {.solvers = solver, .solver_count = 1, .patch_count = count + far + floored}};
+  side->scene.patches = calloc(count + far + floored, sizeof *side->scene.patches);
+  assert_non_null(side->scene.patches);
+  struct scene_patch *patch = side->scene.patches;
+  for (int n = 0; n < 16 && floored; n++) {
+    double *at = patch->P[n / 4][n % 4];
+    at[0] = FLOOR * (n / 4 - 1.25), at[1] = -20, at[2] = FLOOR * (n % 4 - 1.25);
+  }
+  if (floored) patch++;
+  for (size_t p = 0; p < count; p++, patch++) memcpy(patch->P, nets[p], sizeof nets[p]);
+  for (size_t p = 0; p < far; p++, patch++)
+    for (int n = 0; n < 48; n++) patch->P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(&random, 0, 1);
+  world_prepare(side);
+  assert_true((side->tracer->model->leaves != NULL) == (far == 0));
+  const size_t inner = side->tracer->model->inner_count;
+  if (far > 0) assert_true(floored ? inner > 0 : inner == 0);
+}
+
+static int compare(int kind, struct tracer *const tracers[2], struct random *random, world_net nets[], size_t count)
+{
+  int hits = 0;
+  struct asked asked;
+  for (int n = 0; n < RAYS; n += ASKED_RAYS) {
+    world_ask_both(tracers, random, nets, count, n, &asked);
+    for (int l = 0; l < ASKED_RAYS; l++) {
+      const struct hit_list *kept = &asked.list[0][l], *unkept = &asked.list[1][l];
+      hits += asked.hit[0][l].patch != HIT_NONE;
+      assert_same_hit("kept or not", kind, &asked.rays[l], &asked.hit[0][l], &asked.hit[1][l]);
+      assert_int_equal(asked.occluded[0][l], asked.occluded[1][l]);
+      assert_int_equal(kept->certainty, unkept->certainty);
+      /* what a list holds that is not certain also depends on the work that the boxes of others took */
+      if (kept->certainty != CERTAINTY_CERTAIN) continue;
+      assert_int_equal(kept->count, unkept->count);
+      for (size_t h = 0; h < kept->count; h++)
+        assert_same_hit("kept or not, of all", kind, &asked.rays[l], &kept->hits[h], &unkept->hits[h]);
+    }
+  }
+  return hits;
+}
+
+TEST(answers_are_the_same)
+{
+  static world_net nets[WORLD_MAX];
+  struct random random = {SEED};
+  static const struct {
+    enum world_kind kind;
+    const char *solver;
+  } ways[] = {{WORLD_GRID, "bernstein { split 2 }"}, {WORLD_WILD, "aberth { split 1 }"}};
+  for (size_t n = 0; n < sizeof ways / sizeof ways[0]; n++) {
+    const int kind = (int)ways[n].kind;
+    struct method solver = method_of(ways[n].solver);
+    struct world sides[2];
+    const size_t count = world_fill(ways[n].kind, &random, nets);
+    for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY, kind % 2);
+    struct tracer anew; /* remembers no leaves, unlike the other one, and makes each anew */
+    tracer_begin(sides[1].intersector, &anew);
+    const int hits = compare(kind, (struct tracer *[]){sides[0].tracer, sides[1].tracer}, &random, nets, count) +
+                     compare(kind, (struct tracer *[]){sides[0].tracer, &anew}, &random, nets, count);
+    tracer_end(&anew);
+    assert_true(hits > RAYS / 16);
+    for (int k = 0; k < 2; k++) world_close(&sides[k]);
+  }
 }
