@@ -118,13 +118,12 @@ static bool add_pole(const struct piece *plane, const struct wedge *w, double *s
 static bool add_wedge(const struct judge *j, const struct wedge *w, double *sum)
 {
   const struct piece *plane = &j->sight.plane;
-  struct direction in, out;
-  if (!j->seen) return false;
+  struct direction in = {0, 0}, out = {0, 0};
   if (w->pole >= 0) return add_pole(plane, w, sum);
   const int first[2] = {border_direction(plane, w->in, w->end, &in), border_direction(plane, w->out, out_end(w), &out)};
-  if (first[0] == 0 || first[1] == 0) return false;
-  /* Without a handle the corner's sector is as its borders say only if a combination of a and b themselves shows it. */
-  if ((first[0] > 1 || first[1] > 1) && (j->sight.borders > 0 || j->sight.met)) return false;
+  /* Without a handle the corner's sector is as its borders say only if a combination of a and b themselves shows it. A
+   * border without a direction is met. */
+  if ((first[0] != 1 || first[1] != 1) && (j->sight.borders > 0 || j->sight.met)) return false;
   const double turn = angle(in, out); /* at a smooth corner, either way */
   *sum += turn;
   return fabs(turn) < HALF_TURN;
@@ -157,7 +156,7 @@ static size_t round_vertex(struct judge *j, const struct wedge *start, size_t ou
     if (!add_wedge(j, &w, &sum)) return 0;
     out[count++] = found;
     if (!next_wedge(j->asked->model, &w, &w)) return 0;
-    if (same_wedge(&w, start) && w.in == start->in) return fabs(fabs(sum) - whole) < 1 ? count : 0;
+    if (same_wedge(&w, start)) return fabs(fabs(sum) - whole) < 1 ? count : 0;
   }
   return 0;
 }
@@ -170,8 +169,7 @@ static size_t across_border(struct judge *j, size_t at, size_t out[VERTEX_MAX])
   const struct edge_neighbour *other = model_neighbour(j->asked->model, here->root.patch, border);
   for (size_t k = 0; k < j->list->count && other->patch != EDGE_NONE; k++) {
     struct exact_root *root = &found[k].root;
-    if (k == at || root->patch != other->patch || found[k].kind != EXACT_BORDER || root->borders != 1u << other->border)
-      continue;
+    if (root->patch != other->patch || found[k].kind != EXACT_BORDER || root->borders != 1u << other->border) continue;
     const wide along = border < 2 ? here->root.v : here->root.u, its = other->border < 2 ? root->v : root->u;
     const double apart = fabs((double)(along - (other->reversed ? 1 - its : its)));
     if (apart > here->root.radius_u + here->root.radius_v + root->radius_u + root->radius_v) continue;
@@ -186,6 +184,5 @@ size_t vertex_crossed(struct judge *j, size_t at, size_t out[VERTEX_MAX])
 {
   struct wedge start;
   if (wedge_of(j->asked->model, &j->list->at[at].root, &start)) return round_vertex(j, &start, out);
-  const unsigned borders = j->list->at[at].root.borders;
-  return borders & (borders - 1) ? 0 : across_border(j, at, out);
+  return across_border(j, at, out);
 }
