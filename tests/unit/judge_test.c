@@ -258,6 +258,25 @@ TEST(a_root_on_a_border_is_exact_in_corners_of_pieces_and_at_simple_places)
   tilt = 0;
 }
 
+TEST(a_root_next_to_the_start_or_nearly_singular_is_a_root)
+{
+  struct exact_list list = {0};
+  begin(JUDGE_ALL, &list), ray.t_min = 0;
+  for (int p = FIRST; p <= THIRD; p += THIRD, list.count = 0) {
+    const double middle = p == FIRST ? 1.25 : 1.5;
+    for (int n = 0; n < 16; n++) { /* of THIRD, the derivatives of the planes are 1, 1 + e and 1 - e, 1 */
+      double *P = patches[p].P[n / 4][n % 4], u = n / 4 - 1.5, v = n % 4 - middle;
+      P[0] = v;
+      if (p == THIRD) P[1] = u + (1 + 0x1p-50) * v, P[2] = (1 - 0x1p-50) * u + v;
+    }
+    ray.origin[0] = p == FIRST ? -0x1p-140 : -2, ray.origin[1] = p == FIRST ? 1.25 : 0, judge_turn(&judge, (uint32_t)p);
+    place_root(&judge, &(struct waiting){.piece = judge.sight.off, .border = -1},
+               &(struct piece_root){.at = {0.5, middle / 3}, .radius = 0x1p-5});
+    assert_true(list.count == 1 && list.at[0].kind == EXACT_INSIDE);
+  }
+  free(list.at);
+}
+
 /* ---- decisions ---- */
 
 enum { SURE = 1, KNOWN = 2, ONLY = -1 };
@@ -359,4 +378,33 @@ TEST(nothing_is_said_to_be_visible_that_may_be_hidden)
   ask(BIT(TOUCHED)), assert_true(exact_occluded(&asked, &proven)), assert_false(proven);
   ray.t_max = 1, assert_false(exact_occluded(&asked, &proven)), assert_true(proven);
   asked.limit = 0, assert_true(exact_occluded(&asked, &proven)), assert_false(proven);
+}
+
+TEST(of_what_may_be_one_hit_one_is_left)
+{
+  static const struct {
+    double at[3][2]; /* t and its error of one root's places, or of an open place */
+    int count, open; /* the number of the open one */
+    size_t in, doubts;
+  } cases[] = {{{{2, 0.5}, {2.75, 0.5}}, 2, -1, 1, 0},
+               {{{2, 0.125}, {2.125, 0}}, 2, 1, 1, 0},
+               {{{2, 0}, {2.125, 0.125}}, 2, 0, 1, 0},
+               {{{2, 0}, {2.125, 0}, {4, 1}}, 3, 1, 2, 1},
+               {{{2, 0.125}, {2.1875, 0.125}, {2.25, 0}}, 3, 2, 1, 1}, /* one left out takes none with it */
+               {{{2, 0.125}, {2.1875, 0.125}, {2.15625, 0}}, 3, 2, 1, 1}};
+  struct exact_list list = {0};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; n++, list.count = 0) {
+    size_t left[2] = {0};
+    ask(BIT(AT_TOUCH)), asked.limit = 0; /* nothing is searched */
+    for (int k = 0; k < cases[n].count; k++) {
+      const bool open = k == cases[n].open;
+      const struct exact_root root = root_at(open, cases[n].at[k][0], SHARP, cases[n].at[k][1]);
+      assert_true(exact_list_add(&list, &(struct exact_found){root, open ? EXACT_OPEN : EXACT_INSIDE, .taken = -open}));
+    }
+    exact_all(&asked, &list);
+    for (size_t k = 0; k < list.count; k++) left[list.at[k].kind == EXACT_OPEN]++;
+    assert_true(left[0] == cases[n].in && left[1] == cases[n].doubts);
+  }
+  ask(0), model.unproven = true, assert_false(exact_all(&asked, &list));
+  free(list.at);
 }
