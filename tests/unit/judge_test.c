@@ -383,9 +383,8 @@ TEST(nothing_is_said_to_be_visible_that_may_be_hidden)
 TEST(of_what_may_be_one_hit_one_is_left)
 {
   static const struct {
-    double at[3][2]; /* t and its error of one root's places, or of an open place */
-    int count, open; /* the number of the open one */
-    size_t in, doubts;
+    double at[3][2];             /* t and its error of an open place, and of places of one root */
+    int count, open, in, doubts; /* open: the number of that place; in, doubts: of what is left */
   } cases[] = {{{{2, 0.5}, {2.75, 0.5}}, 2, -1, 1, 0},
                {{{2, 0.125}, {2.125, 0}}, 2, 1, 1, 0},
                {{{2, 0}, {2.125, 0.125}}, 2, 0, 1, 0},
@@ -394,7 +393,7 @@ TEST(of_what_may_be_one_hit_one_is_left)
                {{{2, 0.125}, {2.1875, 0.125}, {2.15625, 0}}, 3, 2, 1, 1}};
   struct exact_list list = {0};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; n++, list.count = 0) {
-    size_t left[2] = {0};
+    int left[2] = {0};
     ask(BIT(AT_TOUCH)), asked.limit = 0; /* nothing is searched */
     for (int k = 0; k < cases[n].count; k++) {
       const bool open = k == cases[n].open;
@@ -405,6 +404,5 @@ TEST(of_what_may_be_one_hit_one_is_left)
     for (size_t k = 0; k < list.count; k++) left[list.at[k].kind == EXACT_OPEN]++;
     assert_true(left[0] == cases[n].in && left[1] == cases[n].doubts);
   }
-  ask(0), model.unproven = true, assert_false(exact_all(&asked, &list));
-  free(list.at);
+  ask(0), model.unproven = true, assert_false(exact_all(&asked, &list)), free(list.at);
 }
