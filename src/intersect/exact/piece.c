@@ -303,8 +303,8 @@ void piece_depths(const struct piece *piece, double *least, double *most)
   for (int c = 0; c < 16; c++)
     low = real_min(low, piece->value[NET_W][c / 4][c % 4]), high = real_max(high, piece->value[NET_W][c / 4][c % 4]);
   low = ldexp(low - piece->error[NET_W], piece->scale), high = ldexp(high + piece->error[NET_W], piece->scale);
-  /* the start, the sum, and the differences above */
-  const double slack = 4 * UNIT_ROUNDOFF * (fabs(piece->start) + real_max(-low, high));
+  /* the start, the sum, the differences above, and what the caller divides by */
+  const double slack = 8 * UNIT_ROUNDOFF * (fabs(piece->start) + real_max(-low, high));
   *least = piece->start + low - slack, *most = piece->start + high + slack;
 }
 

@@ -24,7 +24,6 @@ static void set_reach(const struct judge *j, struct waiting *it)
   piece_depths(&it->piece, &least, &most);
   const double one = least / j->sight.along, two = most / j->sight.along;
   it->near = real_min(one, two), it->far = real_max(one, two);
-  it->near -= 4 * UNIT_ROUNDOFF * fabs(it->near), it->far += 4 * UNIT_ROUNDOFF * fabs(it->far);
 }
 
 /* ---- corners ---- */
@@ -196,8 +195,7 @@ static void report_met(struct judge *j, int border)
   for (int n = 3; n >= 0; n--) {
     depth.w = piece_coefficient(&j->sight.plane, NET_W, edge_at(border, n), &depth.exact);
     t[n] = depth.w / j->sight.along;
-    const double here = (double)t[n], off = 4 * UNIT_ROUNDOFF * fabs(here);
-    near = real_min(near, here - off), far = real_max(far, here + off);
+    near = real_min(near, (double)t[n]), far = real_max(far, (double)t[n]);
   }
   const int end = t[3] < t[0]; /* of a line, that which the ray meets first */
   edge_place(border, is_pole ? 0.5 : end, at);
@@ -205,8 +203,8 @@ static void report_met(struct judge *j, int border)
   pole.t = t[0], pole.t_error = (double)(8 * WIDE_ROUNDOFF * wide_abs(t[0]));
   if (is_pole && place_in_range(j, &depth) == PLACE_IN) judge_root(j, &pole);
   if (is_pole) return;
-  judge_maybe(j, at[0], at[1], (double)t[3 * end], 4 * UNIT_ROUNDOFF * fabs((double)t[3 * end]), near);
-  if (far >= j->asked->ray->t_min) judge_left(j, near, far); /* its other points */
+  judge_maybe(j, at[0], at[1], (double)t[3 * end], 0, near);
+  if (far >= j->asked->ray->t_min) judge_left(j, near, INFINITY); /* its other points */
 }
 
 /* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */
