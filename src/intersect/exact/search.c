@@ -115,7 +115,7 @@ static bool beyond(const struct judge *j, const struct waiting *it)
 
 /* If the box is small, and a multiple of 2^-SIMPLE_BITS of the patch is strictly inside it by one parameter at least, a
  * tangency may be exactly there: then parts of the patch that together hold the box, and end there. Returns how many;
- * 0 if there is no such point, -1 if there was no room. */
+ * 0 if there is no such point. Parts of the whole that are no shorter than 2^-BOX_BITS take no room. */
 enum { PARTS_MAX = 4 };
 static int divide_at_simple(struct judge *j, const struct waiting *it, const double box[2][2],
                             struct piece out[PARTS_MAX])
@@ -140,8 +140,8 @@ static int divide_at_simple(struct judge *j, const struct waiting *it, const dou
     struct piece half;
     const limb u = (limb)ldexp(at[0], log2) - (n / 2 == 0), v = (limb)ldexp(at[1], log2) - (n % 2 == 0);
     if (!side[0][n / 2] || !side[1][n % 2]) continue;
-    if (!piece_part(whole, 0, u, u + 1, log2, &j->pool, &half)) return -1;
-    if (!piece_part(&half, 1, v, v + 1, log2, &j->pool, &out[count++])) return -1;
+    (void)piece_part(whole, 0, u, u + 1, log2, &j->pool, &half);
+    (void)piece_part(&half, 1, v, v + 1, log2, &j->pool, &out[count++]);
   }
   return count;
 }
@@ -210,9 +210,8 @@ static void report_met(struct judge *j, int border)
 /* Whether t is the same all over the patch and not within the ray's range: a flat patch across an axis. */
 static bool out_of_range(const struct judge *j)
 {
-  static const double middle[2] = {0.5, 0.5};
-  struct depth depth;
-  depth.w = piece_depth(&j->sight.plane, middle, 1, &depth.error, &depth.exact);
+  struct depth depth = {.error = j->sight.plane.error[NET_W]};
+  depth.w = piece_coefficient(&j->sight.plane, NET_W, 0, &depth.exact);
   return depth.error == 0 && place_in_range(j, &depth) != PLACE_IN;
 }
 
