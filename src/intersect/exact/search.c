@@ -84,10 +84,10 @@ static bool gives_up(struct judge *j, const struct waiting *it)
 }
 
 /* Where a and b are multiples of each other the ray meets curves. If t changes along them all over the piece, none of
- * them begins within it; and those that begin on the patch's borders are found there, if these are all listed. */
+ * them begins within it; and those that begin on the patch's borders are found there. Only where all of the patch is on
+ * the ray are these not listed. */
 static bool decide_curves(struct judge *j, struct waiting *it)
 {
-  if (j->asks == JUDGE_ALL) judge_undecided(j, it->near);
   const bool begins = j->sight.borders < 4 || it->near <= j->asked->ray->t_min;
   return (!begins && piece_depth_turns(&it->piece, &j->pool)) || gives_up(j, it);
 }

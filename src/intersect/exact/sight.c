@@ -195,7 +195,7 @@ static bool exchange(struct sight *s, int border, struct pool *pool)
   for (int c = 0; c < 16 && zero; c++) zero = limbs_zero(net + c * limbs, limbs);
   s->border[s->borders] = border;
   if (!set_on(piece, kept, border, pool, &s->on[s->borders++])) return false;
-  if (zero) s->dependent |= !piece_misses(piece); /* multiples of each other, and zero somewhere */
+  s->dependent |= zero; /* multiples of each other */
   if (!zero) {
     piece->net[NET_A] = piece->net[kept], piece->limbs[NET_A] = piece->limbs[kept];
     piece->net[NET_B] = net, piece->limbs[NET_B] = limbs;
