@@ -6,8 +6,8 @@
 #include "intersect/exact/exact.h"
 #include "intersect/local_ray.h"
 
-/* SMALL and LARGE share a border; THIN is nearly a curve, POLE is so, too, and far away. */
-enum { SMALL, LARGE, THIN, POLE, POINT, PATCHES };
+/* SMALL and LARGE share a border; THIN and SLANTED are nearly curves, POLE is so, too, and far away. */
+enum { SMALL, LARGE, THIN, POLE, POINT, SLANTED, PATCHES };
 
 static struct scene_patch patches[PATCHES];
 static struct method solver;
@@ -18,12 +18,13 @@ static const struct ray ray = {{96, 100, 8}, {0.5, 1, -2}, 1, 3};
 static int set_up(void **state __attribute__((unused)))
 {
   for (int n = 0; n < 16; n++) {
-    const double i = n / 4, j = n % 4, bend = n / 4 == 1 ? 0.25 : 0;
+    const double i = n / 4, j = n % 4, bend = n / 4 == 1 ? 0.25 : 0, rise = n % 4 == 2 ? 8 : 0;
     const double P[PATCHES][3] = {{97 + i, 100 + 2 * j, bend},
-                                  {100 + 64 * i, 100 + 2 * j, 32 * bend},
+                                  {292 - 64 * j, 100 + 2 * i, rise},
                                   {j, i * 0x1p-60, 0},
                                   {0x1p20 + i, i * j * 0x1p-35, 0},
-                                  {7, 7, 7}};
+                                  {7, 7, 7},
+                                  {i + j, 0.75 * (i + j) + i * 0x1p-22, 0.625 * (i + j)}};
     for (int p = 0; p < PATCHES; p++)
       for (int c = 0; c < 3; c++) patches[p].P[n / 4][n % 4][c] = P[p][c];
   }
@@ -72,8 +73,10 @@ TEST_WITH(clearance_on_a_border_is_that_of_the_larger_patch, set_up, tear_down)
   assert_true(hit_at(SMALL, 1, 0.5, 2, 0, 0).clearance > 0.5 * beside && inside < 0.25 * beside);
   assert_true(hit_at(SMALL, 1 - 0x1p-40, 0.5, 2, 0x1p-40, 0).clearance > 0.5 * beside);
   model->cuts[LARGE].loose = 1;
-  assert_true(hit_at(SMALL, 1, 0.5, 2, 0, 0).clearance > 20 && hit_at(LARGE, 0, 0.5, 2, 0, 0).clearance > 20);
+  assert_true(hit_at(SMALL, 1, 0.5, 2, 0, 0).clearance > 20 && hit_at(LARGE, 0.5, 1, 2, 0, 0).clearance > 20);
   assert_true(hit_at(SMALL, 0.5, 0.5, 2, 0, 0).clearance < 1);
+  model->cuts[LARGE].loose = 0, model->cuts[SMALL].loose = 1;
+  assert_true(hit_at(LARGE, 0.5, 1, 2, 0, 0).clearance > 20 && hit_at(LARGE, 0.5, 0.5, 2, 0, 0).clearance < 20);
 }
 
 TEST_WITH(a_hit_is_in_the_patch_and_in_the_range, set_up, tear_down)
@@ -95,7 +98,12 @@ TEST_WITH(a_hit_is_in_the_patch_and_in_the_range, set_up, tear_down)
 TEST_WITH(a_hit_has_a_normal, set_up, tear_down)
 {
   const double length = sqrt(5.25);
+  wide w[4], dw[3];
+  wide_cubic(0.25, w, dw);
+  assert_true(64 * w[1] == 27 && 64 * w[2] == 9 && 16 * dw[1] == 18 && 16 * dw[2] == 3);
   for (int p = THIN; p <= POLE; p++) assert_true(hit_at((uint32_t)p, 0, 0.5, 2, 0, 0).normal[2] == 1);
+  const struct hit slanted = hit_at(SLANTED, 0.3, 0.6, 2, 0, 0); /* rounding the derivatives moves it by 2^-30 */
+  assert_true(fabs(slanted.normal[0] / slanted.normal[2] + 0.625) < 0x1p-45 && fabs(slanted.normal[1]) < 0x1p-45);
   const struct hit front = hit_at(POINT, 0.5, 0.5, 2, 0, 0);
   for (int c = 0; c < 3; c++) assert_true(fabs(front.normal[c] + ray.direction[c] / length) < 0x1p-50);
 }

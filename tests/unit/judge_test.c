@@ -334,13 +334,64 @@ TEST(a_root_in_a_corner_is_alone_unless_there_is_one_in_another_corner)
     ask(BIT(FIRST));
     for (int k = 0; k < 16; k++) {
       double *P = n % 8 < 4 ? patches[FIRST].P[k / 4][k % 4] : patches[FIRST].P[k % 4][k / 4];
-      const bool met = k == 0 || k == other;
+      const bool met = k == 0 || k == other || (other == 0 && k == 4);
       P[0] = (k == other) == (n < 8) || other == 0 ? 1 : 2;
       P[1] = 1.25 + (met || k == 1 ? 0 : 1), P[2] = met ? 0 : z[k];
     }
     exact_closest(&asked, &out);
     assert_true(out.sure && out.hit && out.root.t == 1);
   }
+}
+
+TEST(a_border_may_be_on_the_ray)
+{
+  struct exact_decision out;
+  for (int k = 0; k < 4; k++) { /* from t = 4 to 1, from 1 to 4, a pole, a pole of two rows */
+    const int by = (const int[]){-1, 1, 0, 0}[k];
+    ask(BIT(FIRST) | BIT(THIRD));
+    for (int n = 0; n < 16; n++) {
+      const int off = n / (k == 3 ? 8 : 4);
+      double *P = patches[FIRST].P[n / 4][n % 4];
+      P[0] = (by < 0 ? 4 : 1) + by * (n % 4) + off, P[1] = off ? n % 4 : 1.25, P[2] = off;
+    }
+    decide(by ? 0 : SURE, FIRST);
+    ray.t_min = by ? 2 : 1, decide(by ? 0 : SURE, THIRD);
+    ray.t_min = 4.5, decide(SURE, ONLY);
+    ray.t_min = 0, ray.direction[0] = 3, exact_closest(&asked, &out); /* a pole is at t = 1/3 */
+    assert_true(by || (out.sure && out.root.u == 0 && out.root.v == 0.5 && out.root.t_error > 0));
+  }
+}
+
+TEST(a_root_is_found_however_small_or_long_the_polynomials_are)
+{
+  static const double b[4] = {0, 1, -1, -3}, z[4] = {-1, 0x1p-9, 0.5, 1};
+  struct exact_decision out;
+  ask(BIT(FIRST)); /* b is zero twice along the border, which is met at v = 5/12 */
+  for (int k = 0; k < 16; k++) patches[FIRST].P[k / 4][k % 4][2] = k / 8 * (k / 4);
+  decide(SURE, FIRST);
+  for (int k = 0; k < 48; k++) {
+    double *P = patches[FIRST].P[k / 4 % 4][k % 4];
+    const bool last = k % 16 >= 12, on = k % 16 < 4; /* the border on which a is so small that its doubles are 0 */
+    if (k % 16 == 0) ask(BIT(FIRST)), ray.origin[1] = 0;
+    if (k < 32) P[0] = 2 - P[0], P[1 + k / 16] = on ? k % 4 * 0x1p-70 : k % 4 - 1.25, P[2 - k / 16] = b[k / 4 % 4];
+    else P[0] = last ? 1.9 : -0.9, P[1] = last ? 1.9 : -1.9, P[2] = z[k % 4]; /* these take all bits of their limbs */
+    if (k == 15 || k == 31) decide(SURE, FIRST);
+  }
+  ray = (struct ray){{-1.9, 0, 0}, {1.9, -1.9, 0x1p-11}, 0, INFINITY}, exact_closest(&asked, &out);
+  assert_true(out.sure && out.hit);
+}
+
+TEST(a_place_that_is_never_decided_is_as_small_as_can_be)
+{
+  ask(BIT(FIRST)), asked.limit = 256; /* all of it on the ray */
+  for (int n = 0; n < 48; n++) patches[FIRST].P[n / 12][n / 3 % 4][n % 3] = (const double[3]){1, 1.25, 0}[n % 3];
+  decide(0, FIRST);
+  ask(BIT(TOUCHED)), ray.origin[0] = -0x1p-30; /* its middle is before the ray's start, the place is not */
+  for (int n = 0; n < 16; n++) patches[TOUCHED].P[n / 4][n % 4][0] = (1 - n / 4) * 0x1p40;
+  decide(0, ONLY);
+  ask(BIT(TOUCHED)), ray.t_min = 2; /* all of it is at t = 2 */
+  for (int n = 0; n < 16; n++) patches[TOUCHED].P[n / 4][n % 4][0] = 2;
+  decide(SURE, ONLY);
 }
 
 TEST(a_known_root_is_the_answer_if_nothing_else_is_near)
