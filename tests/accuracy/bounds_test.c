@@ -544,8 +544,9 @@ TEST(borders_are_on_a_line_or_not)
 {
   for (int n = 0; n < CASES; n++) {
     const int border = n % 4, by[2] = {1 + below(100), sign() * (1 + below(100))}, other = n % 3 ? 1 : -1;
+    for (int k = 0; k < 32; k++) fmpz_zero(&integer[k / 16][k % 16]); /* the border's are the largest */
     for (int m = 0; m < 4; m++) {
-      random_integer(&z, NEAR, 0, 60 + below(60), 0);
+      random_integer(&z, NEAR, 0, 119 - below(2) * below(60), 0);
       if (m < 3 && other > 0) fmpz_zero(&z);
       for (int k = 0; k < 2; k++) fmpz_mul_si(&integer[k][edge_at(border, m)], &z, by[k]);
     }
