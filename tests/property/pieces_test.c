@@ -53,7 +53,7 @@ static void evaluate(struct subject *s)
 
 static void ray_along(struct subject *s, const double direction[3])
 {
-  s->ray.t_max = INFINITY;
+  s->ray.t_min = 0, s->ray.t_max = INFINITY;
   for (int c = 0; c < 3; c++) {
     s->ray.direction[c] = direction[c], s->ray.origin[c] = s->point[c] - t_of_root * direction[c];
     assert_true(s->ray.origin[c] + (wide)t_of_root * direction[c] == s->point[c]);
